@@ -1,0 +1,32 @@
+#pragma once
+// Reading scene files.
+
+#include "vlf/scene/scene.h"
+
+#include <string>
+#include <vector>
+
+namespace vlf {
+
+/// What an importer has to say besides the scene: one line each, with file and line or element.
+struct ImportReport {
+    std::vector<std::string> warnings;
+    std::size_t degenerateTriangles = 0;  ///< dropped: no area
+    std::size_t duplicateTriangles = 0;   ///< dropped: repeats of an earlier triangle
+};
+
+/// Reads and merges scene files: .obj (with its .mtl), .gltf, .glb. Cameras come from glTF and
+/// from `NAME.cameras.json` beside `NAME.obj`.
+/// Throws InputError naming file and line or element, FileError if a file cannot be read, and
+/// InputError if the merged scene has no triangle.
+Scene importScene(const std::vector<std::string>& paths, ImportReport& report);
+
+/// One file, not yet cleaned: used by importScene.
+Scene importObj(const std::string& path, ImportReport& report);
+Scene importGltf(const std::string& path, ImportReport& report);
+
+/// Drops degenerate and repeated triangles, computes missing (zero) normals, scales reflectances
+/// that sum to more than one, drops unused vertices. Called by importScene on the merged scene.
+void cleanScene(Scene& scene, ImportReport& report);
+
+}  // namespace vlf
