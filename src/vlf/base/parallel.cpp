@@ -49,6 +49,7 @@ int threadCount() {
 
 void parallelFor(std::size_t count, std::size_t grain,
                  const std::function<void(std::size_t)>& body) {
+    grain = std::max<std::size_t>(grain, 1);
     std::atomic<std::size_t> next{0};
     std::exception_ptr failure;
     std::mutex failureMutex;

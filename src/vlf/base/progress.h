@@ -2,6 +2,8 @@
 // Progress and cancellation of long work, one object handed down by the caller.
 
 #include <atomic>
+#include <cstddef>
+#include <mutex>
 #include <string>
 
 namespace vlf {
@@ -26,6 +28,21 @@ class Progress {
 
   private:
     std::atomic<bool> cancelled_{false};
+};
+
+/// Counts the finished parts of a parallel stage and tells its Progress.
+class ProgressCounter {
+  public:
+    ProgressCounter(Progress& progress, std::size_t total) : progress_(progress), total_(total) {}
+
+    /// One more part is done. Callable from several threads; throws Cancelled.
+    void step();
+
+  private:
+    Progress& progress_;
+    std::size_t total_;
+    std::atomic<std::size_t> done_{0};
+    std::mutex mutex_;
 };
 
 }  // namespace vlf

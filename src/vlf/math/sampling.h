@@ -27,4 +27,14 @@ inline Vec2 sampleUniformTriangle(const Vec2& u) {
     return {s * (1 - u.y), s * u.y};
 }
 
+/// Uniformly distributed rotation (Shoemake, "Uniform random rotations", Graphics Gems III, 1992).
+inline Mat3 sampleUniformRotation(const Vec3& u) {
+    const float a = std::sqrt(1 - u.x), b = std::sqrt(u.x);
+    const float s = 2 * kPi * u.y, t = 2 * kPi * u.z;
+    const float x = a * std::sin(s), y = a * std::cos(s), z = b * std::sin(t), w = b * std::cos(t);
+    return {{1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y)},
+            {2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x)},
+            {2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)}};
+}
+
 }  // namespace vlf

@@ -1,0 +1,97 @@
+#include "vlf/base/file.h"
+
+#include "vlf/base/error.h"
+
+#include <atomic>
+#include <cerrno>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <system_error>
+
+#include <fcntl.h>
+#include <unistd.h>
+
+namespace vlf {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::string systemMessage(int code) {
+    return std::generic_category().message(code);
+}
+
+void writeAll(int file, std::span<const std::uint8_t> bytes, const std::string& path) {
+    while (!bytes.empty()) {
+        const ssize_t n = ::write(file, bytes.data(), bytes.size());
+        if (n < 0 && errno == EINTR) continue;
+        if (n <= 0) throw FileError(path, "cannot write: " + systemMessage(errno));
+        bytes = bytes.subspan(static_cast<std::size_t>(n));
+    }
+}
+
+/// Opens, writes and closes; `path` is what the user called the file.
+void writeTo(const std::string& target, int flags, std::span<const std::uint8_t> bytes,
+             const std::string& path) {
+    const int file = ::open(target.c_str(), O_WRONLY | O_CLOEXEC | flags, 0666);
+    if (file < 0) throw FileError(path, "cannot write: " + systemMessage(errno));
+    try {
+        writeAll(file, bytes, path);
+        // Some file systems report a full disk only here. EINVAL: a device that cannot be synced.
+        if (::fsync(file) != 0 && errno != EINVAL)
+            throw FileError(path, "cannot write: " + systemMessage(errno));
+    } catch (...) {
+        ::close(file);
+        throw;
+    }
+    if (::close(file) != 0) throw FileError(path, "cannot write: " + systemMessage(errno));
+}
+
+/// The file behind a symbolic link, so that a rename replaces the file and not the link.
+std::string linkTarget(const std::string& path) {
+    std::error_code ignored;
+    if (!fs::is_symlink(path, ignored)) return path;
+    const fs::path target = fs::canonical(path, ignored);
+    return target.empty() ? path : target.string();
+}
+
+std::string newNameBeside(const std::string& path) {
+    static std::atomic<unsigned> counter{0};
+    return path + ".tmp-" + std::to_string(::getpid()) + "-" + std::to_string(counter++);
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> readFile(const std::string& path) {
+    std::error_code error;
+    const fs::file_status status = fs::status(path, error);
+    if (!fs::exists(status)) throw FileError(path, "cannot read: " + error.message());
+    if (!fs::is_regular_file(status)) throw FileError(path, "cannot read: not a regular file");
+    std::ifstream stream(path, std::ios::binary);
+    if (!stream) throw FileError(path, "cannot read: " + systemMessage(errno));
+    std::vector<std::uint8_t> bytes(fs::file_size(path));
+    stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+    if (!stream) throw FileError(path, "cannot read: the file ends early or cannot be accessed");
+    return bytes;
+}
+
+void writeFile(const std::string& path, std::span<const std::uint8_t> bytes) {
+    const std::string target = linkTarget(path);
+    std::error_code ignored;
+    if (fs::exists(target, ignored) && !fs::is_regular_file(target, ignored)) {
+        writeTo(target, 0, bytes, path);
+        return;
+    }
+    const std::string fresh = newNameBeside(target);
+    try {
+        writeTo(fresh, O_CREAT | O_EXCL, bytes, path);
+        if (std::rename(fresh.c_str(), target.c_str()) != 0)
+            throw FileError(path, "cannot write: " + systemMessage(errno));
+    } catch (...) {
+        ::unlink(fresh.c_str());
+        throw;
+    }
+}
+
+}  // namespace vlf

@@ -1,0 +1,19 @@
+#pragma once
+// Whole files in one call.
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace vlf {
+
+/// Content of a regular file. Throws FileError.
+std::vector<std::uint8_t> readFile(const std::string& path);
+
+/// Makes `bytes` the content of the file `path`: written to a new file in the same folder, flushed
+/// to disk and renamed, so that a failure (FileError) leaves the old file and nothing else. A
+/// device or pipe is written to directly.
+void writeFile(const std::string& path, std::span<const std::uint8_t> bytes);
+
+}  // namespace vlf

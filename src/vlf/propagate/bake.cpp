@@ -1,0 +1,175 @@
+#include "vlf/propagate/bake.h"
+
+#include "vlf/base/error.h"
+#include "vlf/base/parallel.h"
+#include "vlf/propagate/direct_light.h"
+#include "vlf/propagate/fill_atlas.h"
+
+#include <algorithm>
+#include <chrono>
+
+namespace vlf {
+
+namespace {
+
+/// Announces a stage and notes how long it took.
+template <class Work>
+auto timed(BakeReport& report, Progress& progress, const std::string& name, Work work) {
+    progress.check();
+    progress.stage(name);
+    const auto start = std::chrono::steady_clock::now();
+    const auto note = [&] {
+        const std::chrono::duration<double> d = std::chrono::steady_clock::now() - start;
+        report.stages.push_back({name, d.count()});
+    };
+    if constexpr (std::is_void_v<decltype(work())>) {
+        work();
+        note();
+    } else {
+        auto result = work();
+        note();
+        return result;
+    }
+}
+
+FieldFrame frameOf(const Scene& scene) {
+    const Sphere sphere = boundingSphere(scene);
+    return {sphere.centre, sphere.radius};
+}
+
+/// Mean reflectances over each texel's points.
+void findReflectances(BakeState& state) {
+    const Unwrap& u = state.unwrap;
+    state.reflectance.resize(u.texels.size());
+    state.absorptance.resize(u.texels.size());
+    parallelFor(u.texels.size(), 512, [&](std::size_t i) {
+        const auto points = u.points.of(i);
+        const Material& material = state.scene.material(points[0].triangle);
+        const bool textured = material.diffuseTexture >= 0 || material.mirrorTexture >= 0;
+        Vec3 diffuse(0), mirror(0);
+        const auto samples = textured ? points : points.first(1);
+        for (const SurfacePoint& p : samples) {
+            const Vec2 uv = uvAt(state.scene, p.triangle, p.barycentric);
+            diffuse += diffuseReflectance(state.scene, material, uv);
+            mirror += mirrorReflectance(state.scene, material, uv);
+        }
+        const auto n = static_cast<float>(samples.size());
+        state.reflectance[i] = diffuse / n;
+        state.absorptance[i] = glm::max(Vec3(0), Vec3(1) - (diffuse + mirror) / n);
+    });
+}
+
+/// A chart's area is shared among its texels by their number of points.
+void findTexelAreas(BakeState& state) {
+    const Unwrap& u = state.unwrap;
+    std::vector<double> area(u.charts.size(), 0), points(u.charts.size(), 0);
+    for (std::uint32_t t = 0; t < u.triangleCharts.size(); ++t)
+        for (const std::uint32_t c : {u.triangleCharts[t].front, u.triangleCharts[t].back})
+            if (c != kNoChart) area[c] += vlf::area(state.scene, t);
+    for (std::size_t i = 0; i < u.texels.size(); ++i)
+        points[u.texelChart[i]] += static_cast<double>(u.points.of(i).size());
+    state.texelArea.resize(u.texels.size());
+    for (std::size_t i = 0; i < u.texels.size(); ++i) {
+        const std::uint32_t c = u.texelChart[i];
+        state.texelArea[i] =
+            static_cast<float>(area[c] * static_cast<double>(u.points.of(i).size()) / points[c]);
+    }
+}
+
+EnergyReport energyBalance(const BakeState& state) {
+    glm::dvec3 emitted(0), absorbed(0), reflected(0);
+    for (const Light& light : state.sources.lights)
+        emitted += glm::dvec3(light.radiance) * static_cast<double>(kPi * light.area);
+    for (std::size_t i = 0; i < state.irradiance.size(); ++i) {
+        const glm::dvec3 flux = glm::dvec3(state.irradiance[i]) * static_cast<double>(state.texelArea[i]);
+        absorbed += flux * glm::dvec3(state.absorptance[i]);
+        reflected += flux * glm::dvec3(state.reflectance[i]);
+    }
+    const glm::dvec3 unshot = reflected * state.report.residual;
+    return {Vec3(emitted), Vec3(absorbed), Vec3(unshot), Vec3(emitted - absorbed - unshot)};
+}
+
+void checkParams(const BakeParams& p) {
+    if (p.cells < 16 || p.cells > 8192)
+        throw InputError("cells must lie between 16 and 8192, not " + std::to_string(p.cells));
+    if (p.texelSize < 0) throw InputError("the texel size must be positive");
+    if (p.directSamples < 1) throw InputError("direct light needs at least one sample");
+}
+
+}  // namespace
+
+BakeParams presetParams(const std::string& name) {
+    BakeParams p;
+    p.preset = name;
+    if (name == "draft") {
+        p.directions = 129;
+        p.cells = 256;
+        p.texelBudget = 20000;
+        p.directSamples = 16;
+        p.tolerance = 5e-3;
+        p.radianceDirections = 513;
+        p.radianceCells = 128;
+    } else if (name == "high") {
+        p.directions = 8193;
+        p.texelBudget = 150000;
+        p.directSamples = 144;
+        p.tolerance = 2e-4;
+        p.radianceCells = 512;
+    } else if (name != "standard") {
+        throw InputError("unknown preset '" + name + "': choose draft, standard or high");
+    }
+    return p;
+}
+
+BakeState makeState(const Scene& scene, const BakeParams& params, Progress& progress) {
+    checkParams(params);
+    BakeState state(scene, params);
+    state.frame = frameOf(scene);
+    state.unwrap = timed(state.report, progress, "charts", [&] {
+        return unwrap(scene, state.rays, {params.texelSize, params.texelBudget, params.seed});
+    });
+    state.report.texels = state.unwrap.texels.size();
+    state.faces = makeBundleFaces(scene, state.unwrap, state.frame);
+    state.sources = findLightSources(scene, state.unwrap);
+    findReflectances(state);
+    findTexelAreas(state);
+    state.directIrradiance = timed(state.report, progress, "direct light", [&] {
+        return directIrradiance(scene, state.rays, state.unwrap, state.sources,
+                                {params.directSamples, params.seed}, progress);
+    });
+    state.irradiance = state.directIrradiance;
+    state.reached.assign(state.irradiance.size(), 0);
+    return state;
+}
+
+LightField finish(BakeState& state, Progress& progress) {
+    LightField field;
+    field.frame = state.frame;
+    field.charts = state.unwrap.charts;
+    field.triangleCharts = state.unwrap.triangleCharts;
+    field.atlas = timed(state.report, progress, "atlas", [&] { return fillAtlas(state); });
+    state.report.energy = energyBalance(state);
+    BakeRecord& r = field.record;
+    r.preset = state.params.preset;
+    r.instructionSet = currentInstructionSet();
+    r.seed = state.params.seed;
+    r.directions = state.params.directions;
+    r.cells = state.params.cells;
+    r.texelSize = state.unwrap.texelSize;
+    r.directSamples = state.params.directSamples;
+    r.bounces = state.report.sweeps;
+    r.residual = state.report.residual;
+    r.energy = state.report.energy;
+    return field;
+}
+
+LightField bake(const Scene& scene, const BakeParams& params, Progress& progress,
+                BakeReport* report) {
+    BakeState state = makeState(scene, params, progress);
+    timed(state.report, progress, "bounces", [&] { propagate(state, progress); });
+    LightField field = finish(state, progress);
+    if (report) *report = state.report;
+    return field;
+}
+
+}  // namespace vlf

@@ -1,0 +1,94 @@
+#pragma once
+// Baking: from a scene to its virtual light field. bake() does it all; the calls beneath it are
+// the same loop in steps, for previews, tests and tools.
+
+#include "vlf/base/progress.h"
+#include "vlf/field/light_field.h"
+#include "vlf/propagate/bundle_faces.h"
+#include "vlf/propagate/bundle_sweep.h"
+#include "vlf/propagate/light_sources.h"
+#include "vlf/scene/scene.h"
+#include "vlf/trace/ray_scene.h"
+#include "vlf/unwrap/unwrap.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace vlf {
+
+struct BakeParams {
+    std::string preset = "standard";
+    int directions = 513;        ///< lines l of the last sweep: 2·4ⁿ + 1
+    int cells = 512;             ///< N: rays along one side of a bundle
+    float texelSize = 0;         ///< metres; 0: from texelBudget
+    double texelBudget = 75000;
+    int directSamples = 32;      ///< shadow rays per texel
+    int coarseDirections = 129;  ///< of the sweeps before the last
+    int coarseCells = 128;
+    int maxBounces = 0;          ///< 0: until converged
+    double tolerance = 1e-3;     ///< of the light still missing, relative
+    int radianceDirections = 2049;  ///< of the radiance field of mirror charts; 0: none
+    int radianceCells = 256;
+    int tileSize = 16;              ///< m
+    std::uint64_t seed = 0;
+};
+
+/// Parameters of "draft", "standard" or "high". Throws InputError for another name.
+BakeParams presetParams(const std::string& name);
+
+/// Seconds and counts, for people and benchmarks.
+struct BakeReport {
+    struct Stage {
+        std::string name;
+        double seconds = 0;
+    };
+    std::vector<Stage> stages;
+    std::size_t texels = 0;
+    std::size_t radianceElements = 0;
+    std::uint64_t exchanges = 0;
+    int sweeps = 0;
+    double residual = 0;
+    EnergyReport energy;
+};
+
+/// The solution under way. Irradiances and reflectances are per entry of unwrap.texels.
+struct BakeState {
+    BakeState(const Scene& sceneToBake, const BakeParams& bakeParams)
+        : scene(sceneToBake), params(bakeParams), rays(sceneToBake) {}
+
+    const Scene& scene;
+    BakeParams params;
+    RayScene rays;
+    Unwrap unwrap;
+    FieldFrame frame;
+    BundleFaces faces;
+    LightSources sources;
+    std::vector<float> texelArea;          ///< m²
+    std::vector<Vec3> reflectance;         ///< diffuse
+    std::vector<Vec3> absorptance;         ///< 1 - diffuse - mirror reflectance
+    std::vector<Vec3> directIrradiance;    ///< W·m⁻²
+    std::vector<Vec3> irradiance;          ///< W·m⁻²: direct and all bounces so far
+    std::vector<std::uint8_t> reached;     ///< whether any ray has met the texel
+    BakeReport report;
+};
+
+/// Charts, texels and direct light: the field after zero bounces. `scene` must outlive the state.
+BakeState makeState(const Scene& scene, const BakeParams& params, Progress& progress);
+
+/// One bounce: every texel gathers the light that the others reflect, over `directions` lines (in
+/// random rotation `sweep`, or as they are if sweep < 0) of cells² rays.
+void propagateOnce(BakeState& state, int directions, int cells, int sweep, Progress& progress);
+
+/// Coarse bounces until the light still missing is below the tolerance (or for
+/// params.maxBounces), then one fine one.
+void propagate(BakeState& state, Progress& progress);
+
+/// The light field of the present solution.
+LightField finish(BakeState& state, Progress& progress);
+
+/// All of it. Throws InputError for parameters or a scene that cannot be baked, Cancelled.
+LightField bake(const Scene& scene, const BakeParams& params, Progress& progress,
+                BakeReport* report = nullptr);
+
+}  // namespace vlf

@@ -1,0 +1,175 @@
+#include "vlf/propagate/light_sources.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace vlf {
+
+namespace {
+
+constexpr std::size_t kMaxImages = 4096;
+
+constexpr int kTextureLevels = 4;  // a textured emitting triangle is cut in 4^4
+
+/// Mean emitted radiance of a patch.
+Vec3 meanEmission(const Scene& scene, const LightPatch& patch) {
+    const Material& material = scene.material(patch.triangle);
+    if (material.emissionTexture < 0) return material.emission;
+    Vec3 sum(0);
+    constexpr int kSteps = 3;
+    int count = 0;
+    for (int i = 0; i < kSteps; ++i)
+        for (int j = 0; i + j < kSteps; ++j, ++count) {
+            const Vec2 w = Vec2(i + 1.0f / 3, j + 1.0f / 3) / static_cast<float>(kSteps);
+            const Vec2 b = (1 - w.x - w.y) * patch.corners[0] + w.x * patch.corners[1] +
+                           w.y * patch.corners[2];
+            sum += emittedRadiance(scene, material, uvAt(scene, patch.triangle, b));
+        }
+    return sum / static_cast<float>(count);
+}
+
+void cut(const LightPatch& patch, int levels, std::vector<LightPatch>& out) {
+    if (levels == 0) {
+        out.push_back(patch);
+        return;
+    }
+    const auto& [a, b, c] = patch.corners;
+    const Vec2 ab = 0.5f * (a + b), bc = 0.5f * (b + c), ca = 0.5f * (c + a);
+    for (const std::array<Vec2, 3>& part : {std::array{a, ab, ca}, std::array{ab, b, bc},
+                                            std::array{ca, bc, c}, std::array{ab, bc, ca}})
+        cut({patch.triangle, part}, levels - 1, out);
+}
+
+void addPatches(const Scene& scene, std::uint32_t t, Light& light) {
+    const bool textured = scene.material(t).emissionTexture >= 0;
+    const std::size_t first = light.patches.size();
+    cut({t, {Vec2(0, 0), Vec2(1, 0), Vec2(0, 1)}}, textured ? kTextureLevels : 0, light.patches);
+    const float patchArea = area(scene, t) / static_cast<float>(light.patches.size() - first);
+    if (textured) light.uniform = false;
+    for (std::size_t i = first; i < light.patches.size(); ++i) {
+        const Vec3 emission = meanEmission(scene, light.patches[i]);
+        light.radiance += emission * patchArea;
+        const float before = i > 0 ? light.cumulativePower.back() : 0;
+        light.cumulativePower.push_back(before + luminance(emission) * patchArea * kPi);
+        light.density.push_back(luminance(emission) * kPi);
+    }
+}
+
+void finishLight(const Scene& scene, Light& light) {
+    const float side = light.front ? 1.0f : -1.0f;
+    Vec3 areaSum(0);
+    Bounds bounds;
+    for (const std::uint32_t t : light.triangles) {
+        areaSum += side * areaVector(scene, t);
+        light.area += area(scene, t);
+        addPatches(scene, t, light);
+        for (int c = 0; c < 3; ++c) bounds.add(scene.position(t, c));
+    }
+    light.radiance /= light.area;
+    for (float& d : light.density) d /= std::max(light.cumulativePower.back(), 1e-30f);
+    light.normal = glm::normalize(areaSum);
+    light.centre = bounds.centre();
+    for (const std::uint32_t t : light.triangles) {
+        light.normalCosine = std::min(light.normalCosine,
+                                      glm::dot(side * geometricNormal(scene, t), light.normal));
+        for (int c = 0; c < 3; ++c)
+            light.radius =
+                std::max(light.radius, glm::distance(light.centre, scene.position(t, c)));
+    }
+}
+
+std::vector<Light> findLights(const Scene& scene, const Unwrap& unwrap) {
+    // Keyed by chart so that the order is that of the charts; an emitting side without a chart
+    // (facing the inside of a solid) lights nothing.
+    std::map<std::uint32_t, Light> byChart;
+    const auto add = [&](std::uint32_t chart, std::uint32_t triangle, bool front) {
+        if (chart == kNoChart) return;
+        Light& light = byChart[chart];
+        light.triangles.push_back(triangle);
+        light.front = front;
+        light.planar = unwrap.charts[chart].planar;
+    };
+    for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) {
+        const Material& material = scene.material(t);
+        if (!material.isEmitter()) continue;
+        add(unwrap.triangleCharts[t].front, t, true);
+        if (material.emitsBothSides) add(unwrap.triangleCharts[t].back, t, false);
+    }
+    std::vector<Light> lights;
+    for (auto& [chart, light] : byChart) {
+        finishLight(scene, light);
+        if (light.cumulativePower.back() > 0) lights.push_back(std::move(light));
+    }
+    return lights;
+}
+
+Vec3 meanMirrorReflectance(const Scene& scene, const Material& material) {
+    return material.mirrorTexture < 0
+               ? material.mirror
+               : material.mirror * scene.textures[material.mirrorTexture].average();
+}
+
+Affine composed(const Affine& a, const Affine& b) {
+    return {a.linear * b.linear, a.linear * b.translation + a.translation};
+}
+
+/// The image of `inner` in mirror chart m.
+LightImage imageIn(const Scene& scene, const Unwrap& unwrap, std::uint32_t m, const Vec3& point,
+                   const LightImage& inner) {
+    LightImage image = inner;
+    image.depth = inner.depth + 1;
+    image.mirror[0] = m;
+    for (int i = 0; i < inner.depth; ++i) image.mirror[i + 1] = inner.mirror[i];
+    const Chart& chart = unwrap.charts[m];
+    image.imageFromWorld = composed(reflection(point, chart.normal), inner.imageFromWorld);
+    image.throughput *= meanMirrorReflectance(scene, scene.materials[chart.material]);
+    return image;
+}
+
+/// Whether some of the light's image lies behind mirror m, whose normal points to the receivers.
+bool mirrorSees(const Unwrap& unwrap, std::uint32_t m, const Vec3& point, const Light& light,
+                const LightImage& inner) {
+    const Vec3 centre = inner.imageFromWorld.point(light.centre);
+    return glm::dot(centre - point, unwrap.charts[m].normal) > -light.radius;
+}
+
+}  // namespace
+
+Affine reflection(const Vec3& point, const Vec3& normal) {
+    const Mat3 linear = Mat3(1.0f) - 2.0f * glm::outerProduct(normal, normal);
+    return {linear, 2 * glm::dot(point, normal) * normal};
+}
+
+LightSources findLightSources(const Scene& scene, const Unwrap& unwrap) {
+    LightSources sources;
+    sources.lights = findLights(scene, unwrap);
+    sources.planarMirror.assign(unwrap.charts.size(), 0);
+    std::map<std::uint32_t, Vec3> mirrors;  // planar mirror chart -> a point of it
+    for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) {
+        if (!scene.material(t).isMirror()) continue;
+        for (const std::uint32_t c : {unwrap.triangleCharts[t].front, unwrap.triangleCharts[t].back})
+            if (c != kNoChart && unwrap.charts[c].planar) {
+                mirrors.emplace(c, scene.position(t, 0));
+                sources.planarMirror[c] = 1;
+            }
+    }
+    for (std::uint32_t i = 0; i < sources.lights.size(); ++i) sources.images.emplace_back().light = i;
+    std::size_t begin = 0;
+    for (int depth = 1; depth <= kMaxImageDepth; ++depth) {
+        const std::size_t end = sources.images.size();
+        if (mirrors.empty() || end + (end - begin) * mirrors.size() > kMaxImages) break;
+        for (std::size_t i = begin; i < end; ++i)
+            for (const auto& [m, point] : mirrors) {
+                const LightImage inner = sources.images[i];
+                if (inner.depth > 0 && inner.mirror[0] == m) continue;
+                if (mirrorSees(unwrap, m, point, sources.lights[inner.light], inner))
+                    sources.images.push_back(imageIn(scene, unwrap, m, point, inner));
+            }
+        begin = end;
+        sources.imageDepth = depth;
+    }
+    return sources;
+}
+
+}  // namespace vlf

@@ -1,0 +1,74 @@
+#pragma once
+// The emitters as direct light sees them: one light per emitting chart side, and its virtual
+// images in planar mirrors (light reaching a diffuse surface by way of mirrors: caustics).
+
+#include "vlf/scene/scene.h"
+#include "vlf/unwrap/unwrap.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace vlf {
+
+/// x -> linear * x + translation.
+struct Affine {
+    Mat3 linear{1.0f};
+    Vec3 translation{0};
+
+    Vec3 point(const Vec3& p) const { return linear * p + translation; }
+    Vec3 vector(const Vec3& v) const { return linear * v; }
+};
+
+/// Reflection in the plane through `point` with unit `normal`.
+Affine reflection(const Vec3& point, const Vec3& normal);
+
+/// Longest chain of mirrors an image goes by. Longer ones, and those over curved mirrors, are left
+/// to the bundles.
+inline constexpr int kMaxImageDepth = 2;
+
+/// A piece of an emitting triangle; textured ones are cut small so that bright parts of the
+/// texture are sampled more.
+struct LightPatch {
+    std::uint32_t triangle = 0;
+    std::array<Vec2, 3> corners;  ///< barycentric
+};
+
+/// An emitter: one side of the triangles of one chart.
+struct Light {
+    std::vector<std::uint32_t> triangles;
+    std::vector<LightPatch> patches;
+    std::vector<float> cumulativePower;  ///< luminous power up to and including patch i, W
+    std::vector<float> density;          ///< of sampling a point of patch i, m⁻²
+    bool front = true;                   ///< the emitting side
+    bool uniform = true;                 ///< no emission texture
+    bool planar = true;
+    Vec3 radiance{0};                    ///< mean over its area, W·m⁻²·sr⁻¹
+    Vec3 normal{0};                      ///< mean emitting direction
+    float normalCosine = 1;              ///< of the widest angle between a normal and the mean
+    Vec3 centre{0};
+    float radius = 0, area = 0;          ///< of the bounding sphere, m; m²
+};
+
+/// A light as seen by way of `depth` planar mirrors; depth 0 is the light itself.
+struct LightImage {
+    std::uint32_t light = 0;
+    int depth = 0;
+    std::array<std::uint32_t, kMaxImageDepth> mirror{};  ///< charts, in order from the receiver
+    Affine imageFromWorld;
+    Vec3 throughput{1};  ///< product of the mirrors' mean reflectances
+};
+
+struct LightSources {
+    std::vector<Light> lights;
+    std::vector<LightImage> images;
+    std::vector<std::uint8_t> planarMirror;  ///< per chart
+    int imageDepth = 0;  ///< chains of up to this many planar mirrors are in `images`
+
+    /// Whether emission seen over these mirrors (charts, in order) is already in the direct light.
+    bool covers(int depth, bool allPlanar) const { return allPlanar && depth <= imageDepth; }
+};
+
+LightSources findLightSources(const Scene& scene, const Unwrap& unwrap);
+
+}  // namespace vlf

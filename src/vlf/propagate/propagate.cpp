@@ -1,0 +1,105 @@
+// Light transport: read this first.
+//
+// Irradiance E at a texel is what emitters send it directly plus what it gathers from the others.
+// Every ray of a bundle that hits a texel is a cosine-distributed sample of its hemisphere, so
+//
+//     E = E_direct + π · (Σ L seen) / (number of samples),      L = ρ E / π
+//
+// a ratio: no cell areas and no solid angles, and a white furnace is exact. One sweep over a set of
+// directions is one bounce of all light (a Jacobi iteration). Coarse sweeps, each in a new random
+// rotation, bring the light to rest; a fine one then gives every texel its value.
+
+#include "vlf/base/parallel.h"
+#include "vlf/field/direction_set.h"
+#include "vlf/math/random.h"
+#include "vlf/math/sampling.h"
+#include "vlf/propagate/bake.h"
+#include "vlf/propagate/convergence.h"
+#include "vlf/propagate/mirror_gather.h"
+
+#include <algorithm>
+
+namespace vlf {
+
+namespace {
+
+/// Directions are dealt to this many accumulators, added up in order: the sum is the same for any
+/// number of threads.
+constexpr std::size_t kAccumulators = 8;
+
+/// L = ρ E / π for every texel.
+TexelBuffer emit(const BakeState& state) {
+    TexelBuffer radiance(state.unwrap.atlasSize());
+    const auto& texels = state.unwrap.texels;
+    for (std::size_t i = 0; i < texels.size(); ++i)
+        radiance.set(texels[i], state.reflectance[i] * state.irradiance[i] / kPi, 1);
+    for (const auto& [texel, proxy] : state.unwrap.proxies)
+        radiance.set(texel, radiance.rgb(proxy), 1);
+    radiance.set(radiance.texelCount(), Vec3(0), 1);  // outside: black
+    return radiance;
+}
+
+/// Sweeps every bundle and gathers what the texels see.
+TexelBuffer sweep(BakeState& state, const DirectionSet& directions, int cells, int rotation,
+                  const TexelBuffer& radiance, Progress& progress) {
+    std::vector<TexelBuffer> gathered(kAccumulators, TexelBuffer(state.unwrap.atlasSize()));
+    std::vector<std::uint64_t> exchanges(kAccumulators, 0);
+    const std::uint64_t seed = mixBits(state.params.seed) + static_cast<std::uint64_t>(rotation + 1);
+    RandomStream turns(seed, ~0ull);
+    const Mat3 turn =
+        rotation < 0 ? Mat3(1) : sampleUniformRotation(Vec3(turns.next2(), turns.next()));
+    const auto lines = static_cast<std::size_t>(directions.lineCount());
+    ProgressCounter done(progress, lines);
+    parallelFor(kAccumulators, [&](std::size_t a) {
+        SweepScratch scratch;
+        MirrorGatherer mirrors(state.scene, state.rays, state.unwrap, state.sources);
+        std::vector<MirrorSight> sights;
+        for (std::size_t line = a; line < lines; line += kAccumulators) {
+            RandomStream random(seed, line);
+            const Vec3 direction = turn * directions.direction(static_cast<std::uint32_t>(line));
+            const float roll = 2 * kPi * random.next();
+            const ParallelSubfield subfield =
+                makeSubfield(state.frame, direction, cells, roll, random.next2());
+            sights.clear();
+            exchanges[a] += sweepBundle(state.faces, subfield, radiance, gathered[a], sights, scratch);
+            mirrors.gather(subfield, sights, radiance, gathered[a]);
+            done.step();
+        }
+    });
+    for (const std::uint64_t n : exchanges) state.report.exchanges += n;
+    return sumInOrder(gathered);
+}
+
+/// E = E_direct + π ΣL / n. Texels no ray met keep what they had.
+void deposit(BakeState& state, const TexelBuffer& gathered) {
+    const auto& texels = state.unwrap.texels;
+    for (std::size_t i = 0; i < texels.size(); ++i) {
+        const float samples = gathered.weight(texels[i]);
+        if (samples <= 0) continue;
+        state.reached[i] = 1;
+        state.irradiance[i] = state.directIrradiance[i] + kPi * gathered.rgb(texels[i]) / samples;
+    }
+}
+
+}  // namespace
+
+void propagateOnce(BakeState& state, int directions, int cells, int rotation, Progress& progress) {
+    const TexelBuffer radiance = emit(state);
+    const TexelBuffer gathered =
+        sweep(state, DirectionSet(directions), cells, rotation, radiance, progress);
+    deposit(state, gathered);
+    ++state.report.sweeps;
+}
+
+void propagate(BakeState& state, Progress& progress) {
+    const BakeParams& p = state.params;
+    Convergence convergence(state);
+    while (!convergence.reached(p.maxBounces, p.tolerance)) {
+        propagateOnce(state, p.coarseDirections, p.coarseCells, state.report.sweeps, progress);
+        convergence.update(state);
+    }
+    state.report.residual = convergence.residual();
+    propagateOnce(state, p.directions, p.cells, -1, progress);
+}
+
+}  // namespace vlf

@@ -1,0 +1,12 @@
+#pragma once
+// Points that lie under other geometry: a floor beneath a cabinet that stands on it.
+
+#include "vlf/unwrap/unwrap.h"
+
+namespace vlf {
+
+/// Removes the points from whose side one sees the closed side of a surface straight above, and
+/// the texels that have no point left.
+void dropBuriedPoints(const Scene& scene, const RayScene& rays, Unwrap& unwrap);
+
+}  // namespace vlf

@@ -1,0 +1,95 @@
+#include "vlf/unwrap/side_exposure.h"
+
+#include "vlf/base/parallel.h"
+#include "vlf/math/frame.h"
+#include "vlf/math/random.h"
+#include "vlf/math/sampling.h"
+
+#include <algorithm>
+#include <atomic>
+#include <numeric>
+
+namespace vlf {
+
+namespace {
+
+constexpr int kBounces = 16;
+constexpr std::size_t kParticlesPerGroup = 24, kMinParticles = 8000, kMaxParticles = 2000000;
+constexpr std::uint32_t kMinHits = 4;
+constexpr float kMinShare = 0.01f;  // of both sides' hits: less is a crack
+
+struct Counter {
+    std::atomic<std::uint32_t> front{0}, back{0};
+};
+
+/// Where particles start: emitters by area, all triangles if there are none.
+struct Sources {
+    std::vector<std::uint32_t> triangles;
+    std::vector<double> cumulativeArea;
+
+    explicit Sources(const Scene& scene) {
+        for (std::uint32_t t = 0; t < scene.triangles.size(); ++t)
+            if (scene.material(t).isEmitter()) triangles.push_back(t);
+        if (triangles.empty()) {
+            triangles.resize(scene.triangles.size());
+            std::iota(triangles.begin(), triangles.end(), 0u);
+        }
+        double sum = 0;
+        for (const std::uint32_t t : triangles) cumulativeArea.push_back(sum += area(scene, t));
+    }
+
+    std::uint32_t pick(float u) const {
+        const auto it = std::upper_bound(cumulativeArea.begin(), cumulativeArea.end(),
+                                         u * cumulativeArea.back());
+        const auto i = std::min<std::size_t>(it - cumulativeArea.begin(), triangles.size() - 1);
+        return triangles[i];
+    }
+};
+
+void followParticle(const Scene& scene, const RayScene& rays, const Sources& sources,
+                    const std::vector<std::uint32_t>& groupOf, std::vector<Counter>& counters,
+                    RandomStream random) {
+    std::uint32_t triangle = sources.pick(random.next());
+    Vec3 position = positionAt(scene, triangle, sampleUniformTriangle(random.next2()));
+    Vec3 normal = geometricNormal(scene, triangle);
+    for (int bounce = 0; bounce < kBounces; ++bounce) {
+        const Vec3 direction =
+            frameFromNormal(normal).toWorld(sampleCosineHemisphere(random.next2()));
+        const Hit hit = rays.closest({position + rays.epsilon() * normal, direction});
+        if (!hit) return;
+        triangle = hit.triangle;
+        position = positionAt(scene, triangle, hit.barycentric);
+        normal = geometricNormal(scene, triangle);
+        const bool front = glm::dot(normal, direction) < 0;
+        Counter& counter = counters[groupOf[triangle]];
+        (front ? counter.front : counter.back).fetch_add(1, std::memory_order_relaxed);
+        if (!front) normal = -normal;
+    }
+}
+
+OpenSides classify(std::uint32_t front, std::uint32_t back) {
+    const bool backOpen = back >= kMinHits && back > kMinShare * (front + back);
+    const bool frontReached = front >= kMinHits && front > kMinShare * (front + back);
+    return {frontReached || !backOpen, backOpen};
+}
+
+}  // namespace
+
+std::vector<OpenSides> findOpenSides(const Scene& scene, const RayScene& rays,
+                                     const std::vector<ChartGroup>& groups,
+                                     const std::vector<std::uint32_t>& groupOf,
+                                     std::uint64_t seed) {
+    const Sources sources(scene);
+    std::vector<Counter> counters(groups.size());
+    const std::size_t particles =
+        std::clamp(kParticlesPerGroup * groups.size(), kMinParticles, kMaxParticles);
+    parallelFor(particles, 256, [&](std::size_t i) {
+        followParticle(scene, rays, sources, groupOf, counters, RandomStream(seed, i));
+    });
+    std::vector<OpenSides> sides(groups.size());
+    for (std::size_t g = 0; g < groups.size(); ++g)
+        sides[g] = classify(counters[g].front, counters[g].back);
+    return sides;
+}
+
+}  // namespace vlf

@@ -1,0 +1,137 @@
+#include "vlf/unwrap/unwrap.h"
+
+#include "vlf/base/error.h"
+#include "vlf/base/parallel.h"
+#include "vlf/unwrap/buried_points.h"
+#include "vlf/unwrap/chart_groups.h"
+#include "vlf/unwrap/chart_layout.h"
+#include "vlf/unwrap/pack_atlas.h"
+#include "vlf/unwrap/seams.h"
+#include "vlf/unwrap/side_exposure.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace vlf {
+
+namespace {
+
+constexpr double kMaxTexels = 1 << 28;
+
+std::vector<std::uint32_t> groupOfTriangles(const std::vector<ChartGroup>& groups,
+                                            std::size_t triangles) {
+    std::vector<std::uint32_t> groupOf(triangles);
+    for (std::uint32_t g = 0; g < groups.size(); ++g)
+        for (const std::uint32_t t : groups[g].triangles) groupOf[t] = g;
+    return groupOf;
+}
+
+double sceneArea(const Scene& scene) {
+    double sum = 0;
+    for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) sum += area(scene, t);
+    return sum;
+}
+
+void checkSize(const Scene& scene, float texelSize) {
+    const double texels = sceneArea(scene) / (static_cast<double>(texelSize) * texelSize);
+    if (!(texels < kMaxTexels))
+        throw InputError("texels of " + std::to_string(texelSize) + " m would be " +
+                         std::to_string(static_cast<long long>(texels)) +
+                         ", more than the 2^28 an atlas can hold: choose larger ones");
+}
+
+/// Charts of the groups' open sides. groupOfChart says whose they are.
+void layOutCharts(const Scene& scene, const std::vector<ChartGroup>& groups,
+                  const std::vector<OpenSides>& sides, Unwrap& result,
+                  std::vector<std::uint32_t>& groupOfChart) {
+    std::vector<Chart> layouts(groups.size());
+    parallelFor(groups.size(), 16, [&](std::size_t g) {
+        layouts[g] = layOutChart(scene, groups[g], result.texelSize);
+    });
+    result.triangleCharts.resize(scene.triangles.size());
+    for (std::uint32_t g = 0; g < groups.size(); ++g) {
+        TriangleCharts charts;
+        if (sides[g].front) {
+            charts.front = static_cast<std::uint32_t>(result.charts.size());
+            result.charts.push_back(layouts[g]);
+            groupOfChart.push_back(g);
+        }
+        if (sides[g].back) {
+            charts.back = static_cast<std::uint32_t>(result.charts.size());
+            result.charts.push_back(backOf(layouts[g]));
+            groupOfChart.push_back(g);
+        }
+        for (const std::uint32_t t : groups[g].triangles) result.triangleCharts[t] = charts;
+    }
+}
+
+/// Lists the covered texels of all charts with their points.
+void coverTexels(const Scene& scene, const std::vector<ChartGroup>& groups,
+                 const std::vector<std::uint32_t>& groupOfChart, Unwrap& result) {
+    std::vector<TexelPoints> points(result.charts.size());
+    parallelFor(points.size(), 4, [&](std::size_t c) {
+        points[c] = findTexelPoints(scene, result.charts[c], groups[groupOfChart[c]].triangles);
+    });
+    result.points.first.push_back(0);
+    for (std::uint32_t c = 0; c < points.size(); ++c) {
+        const Chart& chart = result.charts[c];
+        for (std::uint32_t i = 0; i + 1 < points[c].first.size(); ++i) {
+            const auto texelPoints = points[c].of(i);
+            if (texelPoints.empty()) continue;
+            const std::uint32_t x = chart.x + i % chart.width, y = chart.y + i / chart.width;
+            result.texels.push_back(y * result.atlasWidth + x);
+            result.texelChart.push_back(c);
+            auto& all = result.points.points;
+            all.insert(all.end(), texelPoints.begin(), texelPoints.end());
+            result.points.first.push_back(static_cast<std::uint32_t>(all.size()));
+        }
+    }
+}
+
+/// Pairs every uncovered texel of a chart that has a covered neighbour with it.
+void findProxies(Unwrap& result) {
+    std::vector<std::uint8_t> covered(result.atlasSize(), 0);
+    for (const std::uint32_t t : result.texels) covered[t] = 1;
+    for (const Chart& c : result.charts)
+        for (std::uint32_t y = c.y; y < c.y + c.height; ++y)
+            for (std::uint32_t x = c.x; x < c.x + c.width; ++x) {
+                const std::uint32_t texel = y * result.atlasWidth + x;
+                if (covered[texel]) continue;
+                // The gutter keeps neighbours of an edge texel within the atlas.
+                const std::uint32_t pitch = result.atlasWidth;
+                for (const std::uint32_t n : {texel - 1, texel + 1, texel - pitch, texel + pitch})
+                    if (covered[n]) {
+                        result.proxies.emplace_back(texel, n);
+                        break;
+                    }
+            }
+}
+
+}  // namespace
+
+float texelSizeForBudget(const Scene& scene, double budget) {
+    return static_cast<float>(std::sqrt(sceneArea(scene) / budget));
+}
+
+Unwrap unwrap(const Scene& scene, const RayScene& rays, const UnwrapParams& params) {
+    Unwrap result;
+    result.texelSize = params.texelSize > 0 ? params.texelSize
+                                            : texelSizeForBudget(scene, params.texelBudget);
+    checkSize(scene, result.texelSize);
+    const std::vector<ChartGroup> groups = groupTriangles(scene, result.texelSize);
+    const std::vector<std::uint32_t> groupOf = groupOfTriangles(groups, scene.triangles.size());
+    const std::vector<OpenSides> sides = findOpenSides(scene, rays, groups, groupOf, params.seed);
+    std::vector<std::uint32_t> groupOfChart;
+    layOutCharts(scene, groups, sides, result, groupOfChart);
+    const AtlasSize size = packCharts(result.charts);
+    result.atlasWidth = size.width;
+    result.atlasHeight = size.height;
+    coverTexels(scene, groups, groupOfChart, result);
+    dropBuriedPoints(scene, rays, result);
+    findProxies(result);
+    result.seams = findSeams(scene, rays, result);
+    return result;
+}
+
+}  // namespace vlf

@@ -1,0 +1,56 @@
+#pragma once
+// Charts and texels of a scene: every surface that light can reach gets a place in the irradiance
+// atlas.
+
+#include "vlf/field/chart.h"
+#include "vlf/scene/scene.h"
+#include "vlf/trace/ray_scene.h"
+#include "vlf/unwrap/texel_points.h"
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace vlf {
+
+/// A texel that continues its chart across a seam: its value is the irradiance of another chart at
+/// `coordinates` (texel coordinates there).
+struct SeamLink {
+    std::uint32_t texel;  ///< atlas index
+    std::uint32_t chart;
+    Vec2 coordinates;
+};
+
+struct Unwrap {
+    std::vector<Chart> charts;
+    std::vector<TriangleCharts> triangleCharts;  ///< one per triangle
+    std::uint32_t atlasWidth = 0, atlasHeight = 0;
+    float texelSize = 0;  ///< metres
+
+    /// The texels a surface covers, and for each its atlas index, chart and surface points.
+    std::vector<std::uint32_t> texels;
+    std::vector<std::uint32_t> texelChart;
+    TexelPoints points;
+
+    /// Texels within a chart that the points miss but a ray may still hit (slivers of the
+    /// surface), and the covered neighbour that stands for them. Atlas indices.
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> proxies;
+
+    std::vector<SeamLink> seams;
+
+    std::size_t atlasSize() const { return static_cast<std::size_t>(atlasWidth) * atlasHeight; }
+};
+
+struct UnwrapParams {
+    float texelSize = 0;        ///< metres; 0: from the budget
+    double texelBudget = 75000; ///< about how many texels to spend on the scene
+    std::uint64_t seed = 0;
+};
+
+/// Texel size (metres) that spends about `budget` texels on the scene's fronts.
+float texelSizeForBudget(const Scene& scene, double budget);
+
+/// Throws InputError if the scene would need more than 2^28 texels.
+Unwrap unwrap(const Scene& scene, const RayScene& rays, const UnwrapParams& params);
+
+}  // namespace vlf
