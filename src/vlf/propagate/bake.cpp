@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <ctime>
 
 namespace vlf {
 
@@ -18,9 +19,11 @@ auto timed(BakeReport& report, Progress& progress, const std::string& name, Work
     progress.check();
     progress.stage(name);
     const auto start = std::chrono::steady_clock::now();
+    const std::clock_t cpuStart = std::clock();
     const auto note = [&] {
-        const std::chrono::duration<double> d = std::chrono::steady_clock::now() - start;
-        report.stages.push_back({name, d.count()});
+        const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
+        const double cpu = static_cast<double>(std::clock() - cpuStart) / CLOCKS_PER_SEC;
+        report.stages.push_back({name, wall.count(), cpu});
     };
     if constexpr (std::is_void_v<decltype(work())>) {
         work();

@@ -41,7 +41,8 @@ BakeParams presetParams(const std::string& name);
 struct BakeReport {
     struct Stage {
         std::string name;
-        double seconds = 0;
+        double seconds = 0;     ///< wall clock
+        double cpuSeconds = 0;  ///< of all threads of the process
     };
     std::vector<Stage> stages;
     std::size_t texels = 0;

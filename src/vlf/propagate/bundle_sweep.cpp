@@ -114,8 +114,13 @@ class Sweep {
         projectFaces();
         for (int row = 0; row < subfield_.cells; ++row) {
             if (b_.rowHead[row] == kNoSpan) continue;
-            for (std::uint32_t s = b_.rowHead[row]; s != kNoSpan; s = b_.spans[s].next)
+            rowBegin_ = subfield_.cells;
+            rowEnd_ = 0;
+            for (std::uint32_t s = b_.rowHead[row]; s != kNoSpan; s = b_.spans[s].next) {
+                rowBegin_ = std::min<std::size_t>(rowBegin_, b_.spans[s].begin);
+                rowEnd_ = std::max<std::size_t>(rowEnd_, b_.spans[s].end);
                 insertSpan(b_.spans[s], row);
+            }
             exchangeRow(row);
             clearRow();
         }
@@ -306,31 +311,33 @@ class Sweep {
     }
 
     void clearRow() {
-        std::fill_n(b_.depth.begin(), b_.layersUsed * b_.stride, kFar);
-        std::fill_n(b_.fragment.begin(), b_.layersUsed * b_.stride, kNone);
+        for (std::size_t layer = 0; layer < b_.layersUsed; ++layer) {
+            const std::size_t begin = layer * b_.stride + rowBegin_;
+            std::fill_n(b_.depth.begin() + begin, rowEnd_ - rowBegin_, kFar);
+            std::fill_n(b_.fragment.begin() + begin, rowEnd_ - rowBegin_, kNone);
+        }
         b_.layersUsed = 0;
     }
 
     // --- Exchange of radiance between consecutive fragments
 
     void exchangeRow(int row) {
-        const auto cells = static_cast<std::size_t>(subfield_.cells);
         // One empty layer beyond the last: what leaves the scene.
         if (b_.layersUsed == b_.layerCapacity) b_.addLayers(2 * b_.layersUsed);
-        std::size_t count = collectFirst(cells);
+        std::size_t count = collectFirst();
         exchange(count);
         for (std::size_t layer = 0; layer < b_.layersUsed; ++layer) {
-            count = collectPairs(layer, cells);
+            count = collectPairs(layer);
             exchange(count);
         }
         collectMirrorSights(row);
     }
 
     /// The first fragments of all rays: those that face back see outside.
-    std::size_t collectFirst(std::size_t cells) {
+    std::size_t collectFirst() {
         const UintTag du;
         std::size_t count = 0;
-        for (std::size_t x = 0; x < cells; x += hn::Lanes(du)) {
+        for (std::size_t x = rowBegin_; x < rowEnd_; x += hn::Lanes(du)) {
             const Uints first = hn::LoadU(du, &b_.fragment[x]);
             forEachSet(hn::And(isEntry(first), isFragment(first)), [&](std::size_t lane) {
                 b_.near[count] = outside_;
@@ -341,12 +348,12 @@ class Sweep {
     }
 
     /// Pairs of fragments in this layer and the next that face each other, or the outside.
-    std::size_t collectPairs(std::size_t layer, std::size_t cells) {
+    std::size_t collectPairs(std::size_t layer) {
         const UintTag du;
         const std::uint32_t* const nears = &b_.fragment[layer * b_.stride];
         const std::uint32_t* const fars = nears + b_.stride;
         std::size_t count = 0;
-        for (std::size_t x = 0; x < cells; x += hn::Lanes(du)) {
+        for (std::size_t x = rowBegin_; x < rowEnd_; x += hn::Lanes(du)) {
             const Uints a = hn::LoadU(du, nears + x), b = hn::LoadU(du, fars + x);
             forEachSet(hn::AndNot(isEntry(a), isEntry(b)), [&](std::size_t lane) {
                 const std::uint32_t seen = fars[x + lane];
@@ -405,15 +412,14 @@ class Sweep {
 
     void collectMirrorSights(int row) {
         const UintTag du;
-        const auto cells = static_cast<std::size_t>(subfield_.cells);
         for (std::size_t layer = 0; layer + 1 < b_.layersUsed; ++layer)
-            for (std::size_t x = 0; x < cells; x += hn::Lanes(du)) {
+            for (std::size_t x = rowBegin_; x < rowEnd_; x += hn::Lanes(du)) {
                 const std::size_t i = layer * b_.stride + x;
                 const Uints either = hn::Or(hn::LoadU(du, &b_.fragment[i]),
                                             hn::LoadU(du, &b_.fragment[i + b_.stride]));
                 const Uints mirror = hn::And(either, hn::Set(du, kMirrorBit));
                 if (!hn::AllTrue(du, hn::Eq(mirror, hn::Zero(du))))
-                    for (std::size_t k = 0; k < std::min(hn::Lanes(du), cells - x); ++k)
+                    for (std::size_t k = 0; k < std::min(hn::Lanes(du), rowEnd_ - x); ++k)
                         addMirrorSight(i + k, x + k, row);
             }
     }
@@ -421,12 +427,11 @@ class Sweep {
     void addMirrorSight(std::size_t i, std::size_t x, int row) {
         const std::uint32_t a = b_.fragment[i], b = b_.fragment[i + b_.stride];
         if (!(a & kExit) || b == kNone || (b & kExit)) return;
-        const auto add = [&](std::uint32_t receiver, float depth, bool forward) {
-            sights_.push_back({receiver & kTexelMask, static_cast<std::uint16_t>(x),
-                               static_cast<std::uint16_t>(row), depth, forward});
-        };
-        if (b & kMirrorBit) add(a, b_.depth[i], true);
-        if (a & kMirrorBit) add(b, b_.depth[i + b_.stride], false);
+        const float aDepth = b_.depth[i], bDepth = b_.depth[i + b_.stride];
+        const auto cell = static_cast<std::uint16_t>(x), line = static_cast<std::uint16_t>(row);
+        const std::uint32_t aTexel = a & kTexelMask, bTexel = b & kTexelMask;
+        if (b & kMirrorBit) sights_.push_back({aTexel, bTexel, aDepth, bDepth, cell, line, true});
+        if (a & kMirrorBit) sights_.push_back({bTexel, aTexel, bDepth, aDepth, cell, line, false});
     }
 
     const BundleFaces& faces_;
@@ -436,6 +441,7 @@ class Sweep {
     std::uint32_t outside_;
     std::vector<MirrorSight>& sights_;
     SweepScratch::Buffers& b_;
+    std::size_t rowBegin_ = 0, rowEnd_ = 0;  // cells of the row that hold fragments
     std::uint64_t exchanges_ = 0;
 };
 

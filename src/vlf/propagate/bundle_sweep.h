@@ -13,12 +13,12 @@
 
 namespace vlf {
 
-/// A ray of the bundle whose texel `receiver` sees a mirror: from `depth` in cell (x, y) along the
-/// direction (forward) or against it.
+/// A ray of the bundle that leaves texel `receiver` in cell (x, y), along the direction (forward)
+/// or against it, and meets texel `mirror` of a mirror at `mirrorDepth`.
 struct MirrorSight {
-    std::uint32_t receiver;
+    std::uint32_t receiver, mirror;
+    float receiverDepth, mirrorDepth;
     std::uint16_t x, y;
-    float depth;
     bool forward;
 };
 

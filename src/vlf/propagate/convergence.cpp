@@ -7,6 +7,9 @@ namespace vlf {
 
 namespace {
 constexpr int kMaxSweeps = 300;
+constexpr std::size_t kWindow = 3;  // bounces looked at together
+constexpr double kMinRate = 0.3, kMaxRate = 0.95;
+constexpr double kNoise = 1e-3;  // flux growth below this says little about its ratio
 }
 
 Convergence::Convergence(const BakeState& state) : chartArea_(state.unwrap.charts.size(), 0) {
@@ -15,6 +18,7 @@ Convergence::Convergence(const BakeState& state) : chartArea_(state.unwrap.chart
         totalArea_ += state.texelArea[i];
     }
     previous_ = chartIrradiance(state);
+    lastIrradiance_ = state.irradiance;
 }
 
 std::vector<double> Convergence::chartIrradiance(const BakeState& state) const {
@@ -25,28 +29,46 @@ std::vector<double> Convergence::chartIrradiance(const BakeState& state) const {
     return sum;
 }
 
-void Convergence::update(const BakeState& state) {
+void Convergence::update(BakeState& state) {
     const std::vector<double> now = chartIrradiance(state);
-    double growth = 0;
-    for (std::size_t c = 0; c < now.size(); ++c)
+    double growth = 0, flux = 0, fluxGrowth = 0;
+    for (std::size_t c = 0; c < now.size(); ++c) {
         if (now[c] > 0) growth += chartArea_[c] * (now[c] - previous_[c]) / now[c];
-    growth_.push_back(std::abs(growth) / std::max(totalArea_, 1e-300));
-    previous_ = now;
+        flux += now[c];
+        fluxGrowth += now[c] - previous_[c];
+    }
+    growth_.push_back({growth / totalArea_, flux > 0 ? fluxGrowth / flux : 0});
+    ++bounces_;
+    if (growth_.size() == kWindow) judge(state);
+    previous_ = chartIrradiance(state);
+    lastIrradiance_ = state.irradiance;
 }
 
-double Convergence::residual() const {
-    const std::size_t n = growth_.size();
-    if (n < 3) return 1;
-    // Ratio over two bounces: with it the light to come is growth · r / (1 - r).
-    const double ratio = std::sqrt(growth_[n - 1] / std::max(growth_[n - 3], 1e-300));
-    const double r = std::clamp(ratio, 0.0, 0.98);
-    return growth_[n - 1] * r / (1 - r);
+void Convergence::judge(BakeState& state) {
+    if (std::abs(growth_[1].flux) > kNoise)
+        rate_ = std::clamp(growth_[2].flux / growth_[1].flux, kMinRate, kMaxRate);
+    // The sum of successive differences: the sweeps' noise cancels but for its ends.
+    double sum = 0;
+    for (const Growth& g : growth_) sum += g.relative;
+    residual_ = std::abs(sum) / kWindow * rate_ / (1 - rate_);
+    if (std::abs(growth_[2].flux) > kNoise)
+        extrapolate(state);
+    else
+        growth_.erase(growth_.begin());
+}
+
+void Convergence::extrapolate(BakeState& state) {
+    const auto gain = static_cast<float>(rate_ / (1 - rate_));
+    for (std::size_t i = 0; i < state.irradiance.size(); ++i)
+        state.irradiance[i] =
+            glm::max(state.directIrradiance[i],
+                     state.irradiance[i] + gain * (state.irradiance[i] - lastIrradiance_[i]));
+    growth_.clear();
 }
 
 bool Convergence::reached(int maxBounces, double tolerance) const {
-    const int bounces = static_cast<int>(growth_.size());
-    if (maxBounces > 0) return bounces >= maxBounces;
-    return residual() < tolerance || bounces >= kMaxSweeps;
+    if (maxBounces > 0) return bounces_ >= maxBounces;
+    return residual_ < tolerance || bounces_ >= kMaxSweeps;
 }
 
 }  // namespace vlf

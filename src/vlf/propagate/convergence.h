@@ -14,22 +14,35 @@ class Convergence {
   public:
     explicit Convergence(const BakeState& state);
 
-    /// Takes note of one more bounce.
-    void update(const BakeState& state);
+    /// Takes note of one more bounce and, every few, extrapolates the state: the light still to
+    /// come is about the last bounce's growth times r / (1 - r), r being the growths' ratio
+    /// (Lyusternik's acceleration of a Jacobi iteration).
+    void update(BakeState& state);
 
     /// Whether `maxBounces` are done or, if it is 0, the light still to come is estimated below
     /// `tolerance`, relative.
     bool reached(int maxBounces, double tolerance) const;
 
     /// Estimated light still missing, relative: the geometric continuation of the growth.
-    double residual() const;
+    double residual() const { return residual_; }
 
   private:
     std::vector<double> chartIrradiance(const BakeState& state) const;
+    void judge(BakeState& state);
+    void extrapolate(BakeState& state);
+
+    /// Of one bounce: mean relative growth of the charts, and relative growth of the whole flux.
+    struct Growth {
+        double relative, flux;
+    };
 
     std::vector<double> chartArea_, previous_;
     double totalArea_ = 0;
-    std::vector<double> growth_;
+    std::vector<Growth> growth_;  ///< of the last bounces, none before an extrapolation
+    std::vector<Vec3> lastIrradiance_;
+    int bounces_ = 0;
+    double residual_ = 1;
+    double rate_ = 0.7;  ///< of one bounce's growth to that before
 };
 
 }  // namespace vlf

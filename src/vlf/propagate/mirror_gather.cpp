@@ -18,66 +18,102 @@ std::uint32_t texelAt(const Unwrap& unwrap, std::uint32_t chartIndex, const Vec3
 
 }  // namespace
 
+MirrorGatherer::MirrorGatherer(const Scene& scene, const RayScene& rays, const Unwrap& unwrap,
+                               const LightSources& sources)
+    : scene_(scene), rays_(rays), unwrap_(unwrap), sources_(sources) {
+    chartOf_.assign(unwrap.atlasSize(), kNoChart);
+    for (std::uint32_t c = 0; c < unwrap.charts.size(); ++c) {
+        const Chart& chart = unwrap.charts[c];
+        if (!scene.materials[chart.material].isMirror()) continue;
+        for (std::uint32_t y = chart.y; y < chart.y + chart.height; ++y)
+            std::fill_n(chartOf_.begin() + y * unwrap.atlasWidth + chart.x, chart.width, c);
+    }
+}
+
+/// A mirror whose reflection needs no look at the surface: flat and without texture.
+bool MirrorGatherer::isPlainMirror(std::uint32_t chart) const {
+    return unwrap_.charts[chart].planar &&
+           scene_.materials[unwrap_.charts[chart].material].mirrorTexture < 0;
+}
+
 void MirrorGatherer::start(const ParallelSubfield& subfield,
                            const std::vector<MirrorSight>& sights) {
-    // Rays leave from just before the mirror: everything up to it is known to be empty.
     paths_.clear();
-    rayQueue_.clear();
+    queue_.clear();
     const float perCell = 1 / glm::dot(subfield.xAxis, subfield.xAxis);
     const Vec3 origin = -(perCell * (subfield.xOffset - 0.5f)) * subfield.xAxis -
                         (perCell * (subfield.yOffset - 0.5f)) * subfield.yAxis -
                         subfield.depthOffset * subfield.direction;
     for (const MirrorSight& s : sights) {
-        const float sense = s.forward ? 1.0f : -1.0f;
-        const float depth = s.depth + sense * rays_.epsilon();
-        rayQueue_.push_back({origin + (perCell * s.x) * subfield.xAxis +
-                                 (perCell * s.y) * subfield.yAxis + depth * subfield.direction,
-                             sense * subfield.direction});
-        paths_.push_back({s.receiver, Vec3(1), true});
+        const Vec3 direction = s.forward ? subfield.direction : -subfield.direction;
+        const Vec3 cell = origin + (perCell * s.x) * subfield.xAxis + (perCell * s.y) * subfield.yAxis;
+        const std::uint32_t chart = chartOf_[s.mirror];
+        if (isPlainMirror(chart)) {
+            const Vec3& n = unwrap_.charts[chart].normal;
+            queue_.push_back({cell + s.mirrorDepth * subfield.direction + rays_.epsilon() * n,
+                              glm::reflect(direction, n)});
+            paths_.push_back({s.receiver, 1, true,
+                              scene_.materials[unwrap_.charts[chart].material].mirror});
+        } else {
+            // From the receiver on, to find where exactly the mirror is met.
+            queue_.push_back({cell + s.receiverDepth * subfield.direction +
+                                  rays_.epsilon() * direction,
+                              direction});
+            paths_.push_back({s.receiver, 0, true, Vec3(1)});
+        }
     }
 }
 
-void MirrorGatherer::advance(int reflections, const TexelBuffer& radiance, TexelBuffer& gathered) {
-    hits_.resize(rayQueue_.size());
-    rays_.closest(rayQueue_, hits_);
+void MirrorGatherer::advance(const TexelBuffer& radiance, TexelBuffer& gathered) {
+    hits_.resize(queue_.size());
+    rays_.closest(queue_, hits_);
     nextPaths_.clear();
-    nextRays_.clear();
+    nextQueue_.clear();
     for (std::size_t i = 0; i < hits_.size(); ++i) {
         const Hit& hit = hits_[i];
         if (!hit) continue;
-        const Vec3 direction = rayQueue_[i].direction;
-        const Vec3 geometric = geometricNormal(scene_, hit.triangle);
-        const bool front = glm::dot(geometric, direction) < 0;
+        const bool front = glm::dot(areaVector(scene_, hit.triangle), queue_[i].direction) < 0;
         const TriangleCharts& charts = unwrap_.triangleCharts[hit.triangle];
         const std::uint32_t chart = front ? charts.front : charts.back;
         if (chart == kNoChart) continue;
-        Path path = paths_[i];
-        const Material& material = scene_.material(hit.triangle);
-        const Vec3 p = positionAt(scene_, hit.triangle, hit.barycentric);
-        const Vec2 uv = uvAt(scene_, hit.triangle, hit.barycentric);
-        if (reflections > 0) {
-            Vec3 seen = radiance.rgb(texelAt(unwrap_, chart, p));
-            if (material.isEmitter() && (front || material.emitsBothSides) &&
-                !sources_.covers(reflections, path.planarOnly))
-                seen += emittedRadiance(scene_, material, uv);
-            gathered.addRgb(path.receiver, path.throughput * seen);
-        }
-        if (!material.isMirror()) continue;
-        path.throughput *= mirrorReflectance(scene_, material, uv);
-        path.planarOnly = path.planarOnly && sources_.planarMirror[chart];
-        if (maxComponent(path.throughput) < kMinThroughput) continue;
-        const Vec3 side = front ? geometric : -geometric;
-        Vec3 normal = sources_.planarMirror[chart]
-                          ? side
-                          : shadingNormalAt(scene_, hit.triangle, hit.barycentric);
-        if (glm::dot(normal, side) < 0) normal = -normal;
-        const Vec3 reflected = glm::reflect(direction, normal);
-        if (glm::dot(reflected, side) <= 0) continue;
-        nextRays_.push_back({p + rays_.epsilon() * side, reflected});
-        nextPaths_.push_back(path);
+        const Path& path = paths_[i];
+        const Vec3 position = queue_[i].origin + hit.t * queue_[i].direction;
+        if (path.reflections > 0)
+            gathered.addRgb(path.receiver,
+                            path.throughput *
+                                radianceSeen(path, hit, chart, front, position, radiance));
+        if (path.reflections < kMaxReflections && scene_.material(hit.triangle).isMirror())
+            reflect(path, queue_[i].direction, hit, chart, front, position);
     }
     std::swap(paths_, nextPaths_);
-    std::swap(rayQueue_, nextRays_);
+    std::swap(queue_, nextQueue_);
+}
+
+Vec3 MirrorGatherer::radianceSeen(const Path& path, const Hit& hit, std::uint32_t chart, bool front,
+                                  const Vec3& position, const TexelBuffer& radiance) const {
+    const Vec3 reflected = radiance.rgb(texelAt(unwrap_, chart, position));
+    const Material& material = scene_.material(hit.triangle);
+    if (!material.isEmitter() || !(front || material.emitsBothSides) ||
+        sources_.covers(path.reflections, path.planarOnly))
+        return reflected;
+    return reflected +
+           emittedRadiance(scene_, material, uvAt(scene_, hit.triangle, hit.barycentric));
+}
+
+void MirrorGatherer::reflect(Path path, const Vec3& direction, const Hit& hit, std::uint32_t chart,
+                             bool front, const Vec3& position) {
+    const bool planar = sources_.planarMirror[chart] != 0;
+    path.throughput *= mirrorReflectance(scene_, scene_.material(hit.triangle),
+                                         uvAt(scene_, hit.triangle, hit.barycentric));
+    path.planarOnly = path.planarOnly && planar;
+    ++path.reflections;
+    const Vec3 side = geometricNormal(scene_, hit.triangle) * (front ? 1.0f : -1.0f);
+    Vec3 normal = planar ? side : shadingNormalAt(scene_, hit.triangle, hit.barycentric);
+    if (glm::dot(normal, side) < 0) normal = -normal;
+    const Vec3 reflected = glm::reflect(direction, normal);
+    if (glm::dot(reflected, side) <= 0 || maxComponent(path.throughput) < kMinThroughput) return;
+    nextQueue_.push_back({position + rays_.epsilon() * side, reflected});
+    nextPaths_.push_back(path);
 }
 
 void MirrorGatherer::gather(const ParallelSubfield& subfield,
@@ -85,8 +121,7 @@ void MirrorGatherer::gather(const ParallelSubfield& subfield,
                             TexelBuffer& gathered) {
     if (sights.empty()) return;
     start(subfield, sights);
-    for (int reflections = 0; reflections <= kMaxReflections && !rayQueue_.empty(); ++reflections)
-        advance(reflections, radiance, gathered);
+    while (!queue_.empty()) advance(radiance, gathered);
 }
 
 }  // namespace vlf

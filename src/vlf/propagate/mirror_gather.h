@@ -18,8 +18,7 @@ inline constexpr int kMaxReflections = 16;
 class MirrorGatherer {
   public:
     MirrorGatherer(const Scene& scene, const RayScene& rays, const Unwrap& unwrap,
-                   const LightSources& sources)
-        : scene_(scene), rays_(rays), unwrap_(unwrap), sources_(sources) {}
+                   const LightSources& sources);
 
     /// `radiance`: diffuse radiance leaving each texel. Emission is added where the direct light
     /// does not have it already (LightSources::covers).
@@ -29,19 +28,26 @@ class MirrorGatherer {
   private:
     struct Path {
         std::uint32_t receiver;
-        Vec3 throughput;
+        int reflections;
         bool planarOnly;
+        Vec3 throughput;
     };
 
     void start(const ParallelSubfield& subfield, const std::vector<MirrorSight>& sights);
-    void advance(int reflections, const TexelBuffer& radiance, TexelBuffer& gathered);
+    void advance(const TexelBuffer& radiance, TexelBuffer& gathered);
+    Vec3 radianceSeen(const Path& path, const Hit& hit, std::uint32_t chart, bool front,
+                      const Vec3& position, const TexelBuffer& radiance) const;
+    void reflect(Path path, const Vec3& direction, const Hit& hit, std::uint32_t chart, bool front,
+                 const Vec3& position);
+    bool isPlainMirror(std::uint32_t chart) const;
 
     const Scene& scene_;
     const RayScene& rays_;
     const Unwrap& unwrap_;
     const LightSources& sources_;
+    std::vector<std::uint32_t> chartOf_;  ///< of each atlas texel
     std::vector<Path> paths_, nextPaths_;
-    std::vector<Ray> rayQueue_, nextRays_;
+    std::vector<Ray> queue_, nextQueue_;
     std::vector<Hit> hits_;
 };
 

@@ -3,18 +3,20 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace vlf {
 
 namespace {
 
-struct Located {
-    std::uint32_t texel;
-    std::uint32_t cell;  // grid point of the texel; kCentroid: a triangle without one
-    SurfacePoint point;
-};
+constexpr std::uint32_t kNone = 0xffffffffu;
+constexpr int kCells = kTexelGrid * kTexelGrid;
 
-constexpr std::uint32_t kCentroid = kTexelGrid * kTexelGrid;
+/// The chart's grid points, texel by texel, and the triangles that hold none of them.
+struct Located {
+    std::vector<SurfacePoint> grid;  // kCells a texel; triangle kNone: not covered
+    std::vector<std::pair<std::uint32_t, SurfacePoint>> centroids;  // with their texel
+};
 
 /// A triangle in units of grid points.
 struct GridTriangle {
@@ -45,14 +47,12 @@ Vec2 clampedToTriangle(const Vec2& b) {
     return c / std::max(1.0f, c.x + c.y);
 }
 
-void locatePoints(const Scene& scene, const Chart& chart, std::uint32_t t,
-                  std::vector<Located>& out) {
+void locatePoints(const Scene& scene, const Chart& chart, std::uint32_t t, Located& out) {
     const GridTriangle triangle(scene, chart, t);
     const int columns = static_cast<int>(chart.width) * kTexelGrid;
     const int rows = static_cast<int>(chart.height) * kTexelGrid;
-    const auto add = [&](int x, int y, std::uint32_t cell, const Vec2& b) {
-        const std::uint32_t texel = (y / kTexelGrid) * chart.width + x / kTexelGrid;
-        out.push_back({texel, cell, {t, clampedToTriangle(b)}});
+    const auto texelOf = [&](int x, int y) {
+        return static_cast<std::uint32_t>(y / kTexelGrid) * chart.width + x / kTexelGrid;
     };
     const auto [x0, x1] = std::minmax({triangle.p[0].x, triangle.p[1].x, triangle.p[2].x});
     const auto [y0, y1] = std::minmax({triangle.p[0].y, triangle.p[1].y, triangle.p[2].y});
@@ -61,35 +61,41 @@ void locatePoints(const Scene& scene, const Chart& chart, std::uint32_t t,
         for (int y = std::max(0, static_cast<int>(y0)); y <= std::min(rows - 1.0f, y1); ++y)
             for (int x = std::max(0, static_cast<int>(x0)); x <= std::min(columns - 1.0f, x1); ++x)
                 if (const Vec2 b = triangle.barycentric(Vec2(x + 0.5f, y + 0.5f)); inside(b)) {
-                    add(x, y, (y % kTexelGrid) * kTexelGrid + x % kTexelGrid, b);
+                    const int cell = (y % kTexelGrid) * kTexelGrid + x % kTexelGrid;
+                    SurfacePoint& point = out.grid[kCells * std::size_t{texelOf(x, y)} + cell];
+                    if (point.triangle == kNone) point = {t, clampedToTriangle(b)};
                     any = true;
                 }
     if (any) return;
     const Vec2 centroid = (triangle.p[0] + triangle.p[1] + triangle.p[2]) / 3.0f;
-    add(std::clamp(static_cast<int>(centroid.x), 0, columns - 1),
-        std::clamp(static_cast<int>(centroid.y), 0, rows - 1), kCentroid, Vec2(1.0f / 3));
+    const int x = std::clamp(static_cast<int>(centroid.x), 0, columns - 1);
+    const int y = std::clamp(static_cast<int>(centroid.y), 0, rows - 1);
+    out.centroids.push_back({texelOf(x, y), {t, Vec2(1.0f / 3)}});
 }
 
 }  // namespace
 
 TexelPoints findTexelPoints(const Scene& scene, const Chart& chart,
                             const std::vector<std::uint32_t>& triangles) {
-    std::vector<Located> located;
+    const std::size_t texels = static_cast<std::size_t>(chart.width) * chart.height;
+    Located located;
+    located.grid.assign(kCells * texels, {kNone, {}});
     for (const std::uint32_t t : triangles) locatePoints(scene, chart, t, located);
-    std::stable_sort(located.begin(), located.end(), [](const Located& a, const Located& b) {
-        return a.texel != b.texel ? a.texel < b.texel : a.cell < b.cell;
-    });
+    std::stable_sort(located.centroids.begin(), located.centroids.end(),
+                     [](const auto& a, const auto& b) { return a.first < b.first; });
     TexelPoints result;
-    result.first.assign(static_cast<std::size_t>(chart.width) * chart.height + 1, 0);
-    for (std::size_t i = 0; i < located.size(); ++i) {
-        const Located& p = located[i];
-        const bool repeated = i > 0 && p.cell != kCentroid && located[i - 1].texel == p.texel &&
-                              located[i - 1].cell == p.cell;
-        if (repeated) continue;
-        result.points.push_back(p.point);
-        ++result.first[p.texel + 1];
+    result.first.reserve(texels + 1);
+    result.points.reserve(kCells * texels + located.centroids.size());
+    auto centroid = located.centroids.begin();
+    for (std::size_t texel = 0; texel < texels; ++texel) {
+        result.first.push_back(static_cast<std::uint32_t>(result.points.size()));
+        for (int cell = 0; cell < kCells; ++cell)
+            if (const SurfacePoint& p = located.grid[kCells * texel + cell]; p.triangle != kNone)
+                result.points.push_back(p);
+        for (; centroid != located.centroids.end() && centroid->first == texel; ++centroid)
+            result.points.push_back(centroid->second);
     }
-    for (std::size_t i = 1; i < result.first.size(); ++i) result.first[i] += result.first[i - 1];
+    result.first.push_back(static_cast<std::uint32_t>(result.points.size()));
     return result;
 }
 

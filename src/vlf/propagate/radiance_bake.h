@@ -1,0 +1,40 @@
+#pragma once
+// Fills the radiance field: for every direction and cell whose ray leaves a mirror, what is seen
+// in it and how far away.
+
+#include "vlf/base/progress.h"
+#include "vlf/field/light_field.h"
+#include "vlf/scene/scene.h"
+#include "vlf/trace/ray_scene.h"
+
+#include <cstdint>
+
+namespace vlf {
+
+struct RadianceParams {
+    int lines = 2049;    ///< of the direction set: 2·4ⁿ + 1
+    int cells = 256;     ///< N
+    int tileSize = 16;   ///< m
+};
+
+/// Elements, bytes included, that bakeRadiance would make: cheap, exact.
+struct RadianceSize {
+    std::uint64_t elements = 0;
+    std::uint64_t bytes = 0;
+};
+RadianceSize radianceSize(const Scene& scene, const LightField& field, const RadianceParams& params);
+
+/// The radiance field of all charts whose material is a mirror. Of `field`, the charts, their
+/// triangles, the atlas and the frame are read. The subfield of a direction and of its opposite is
+/// makeSubfield(field.frame, direction of the line, cells).
+///
+/// What is seen is emission (of the emitting side) and ρE/π with E from the atlas, times the
+/// reflectance of the mirrors on the way, up to kMaxReflections of them. Every chart is covered on
+/// its own, whatever hides it, with a guard band: all cells whose square of twice the cell size
+/// touches it, so that bilinear interpolation on the chart finds its four cells. Deterministic for
+/// any number of threads. Empty if there is no mirror. Throws InputError for parameters out of
+/// range, Cancelled.
+RadianceField bakeRadiance(const Scene& scene, const RayScene& rays, const LightField& field,
+                           const RadianceParams& params, Progress& progress);
+
+}  // namespace vlf
