@@ -22,5 +22,6 @@ void addRender(CLI::App& app, const Globals& globals);
 void addReference(CLI::App& app, const Globals& globals);
 void addCompare(CLI::App& app, const Globals& globals);
 void addScene(CLI::App& app, const Globals& globals);
+void addSheet(CLI::App& app, const Globals& globals);
 
 }  // namespace vlf::app

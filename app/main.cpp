@@ -42,6 +42,9 @@ void addCommands(CLI::App& app, const vlf::app::Globals& globals) {
 #ifdef VLF_HAS_SCENE
     addScene(app, globals);
 #endif
+#ifdef VLF_HAS_SHEET
+    addSheet(app, globals);
+#endif
 }
 
 int run(CLI::App& app, int argc, char** argv) {

@@ -1,5 +1,5 @@
-# The libraries vlf is built from. Required for find_package(vlf) too: keep
-# vlfConfig.cmake.in in step.
+# The libraries vlf is built from; those of the program, tests and benchmarks are found there.
+# vlfConfig.cmake reads this file too, for whoever links the installed libraries.
 find_package(PkgConfig REQUIRED)
 find_package(Threads REQUIRED)
 find_package(TBB REQUIRED)
@@ -12,9 +12,7 @@ find_package(fmt REQUIRED)
 find_package(OpenEXR REQUIRED)
 find_package(hwy REQUIRED)
 find_package(nlohmann_json REQUIRED)
-find_package(tinyobjloader REQUIRED)
 find_package(TinyGLTF REQUIRED)
-find_package(CLI11 REQUIRED)
 find_package(zstd REQUIRED)
 pkg_check_modules(stb REQUIRED IMPORTED_TARGET stb)
 pkg_check_modules(xxhash REQUIRED IMPORTED_TARGET libxxhash)

@@ -49,12 +49,15 @@ struct RadianceField {
     /// The block of `chart` in `direction`, or nullptr.
     const TileBlock* find(std::uint32_t direction, std::uint32_t chart) const;
 
+    /// Index of the element of cell (x, y), which lies in one of the block's tiles.
+    std::uint64_t index(const TileBlock& block, int x, int y) const;
+
     /// The element of cell (x, y), or nullptr where the block does not reach.
     const RadianceElement* element(const TileBlock& block, int x, int y) const;
 };
 
 /// Shared-exponent packing of non-negative radiance; the error is below 1/512 of the largest
-/// channel. Values above 65408 are clamped.
+/// channel, or 2⁻²⁵ where that is more. Values above 65408 are clamped.
 std::uint32_t packRgb9e5(const Vec3& rgb);
 Vec3 unpackRgb9e5(std::uint32_t packed);
 

@@ -1,12 +1,11 @@
 #include "vlf/trace/ray_scene.h"
 
 #include "vlf/base/error.h"
+#include "vlf/trace/embree.h"
 
 #include <algorithm>
 #include <array>
 #include <cstring>
-
-#include <embree3/rtcore.h>
 
 namespace vlf {
 
@@ -95,25 +94,18 @@ Hit RayScene::closest(const Ray& ray) const {
     RTCRayHit query{};
     query.ray = toEmbree(ray);
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    rtcIntersect1(impl_->scene, &context, &query);
+    embree::intersect(impl_->scene, query);
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
     return {query.hit.primID, query.ray.tfar, {query.hit.u, query.hit.v}};
 }
 
 bool RayScene::occluded(const Ray& ray) const {
     RTCRay query = toEmbree(ray);
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    rtcOccluded1(impl_->scene, &context, &query);
+    embree::occluded(impl_->scene, query);
     return query.tfar < 0;
 }
 
 void RayScene::closest(std::span<const Ray> rays, std::span<Hit> hits) const {
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
     for (std::size_t begin = 0; begin < rays.size(); begin += kPacket) {
         const std::size_t count = std::min(kPacket, rays.size() - begin);
         alignas(32) RTCRayHit8 packet;
@@ -121,7 +113,7 @@ void RayScene::closest(std::span<const Ray> rays, std::span<Hit> hits) const {
         fillPacket(rays.subspan(begin, count), packet.ray, valid);
         for (unsigned& id : packet.hit.geomID) id = RTC_INVALID_GEOMETRY_ID;
         for (unsigned& id : packet.hit.instID[0]) id = RTC_INVALID_GEOMETRY_ID;
-        rtcIntersect8(valid.data(), impl_->scene, &context, &packet);
+        embree::intersectCoherent(valid.data(), impl_->scene, packet);
         for (std::size_t i = 0; i < count; ++i)
             hits[begin + i] = packet.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID
                                   ? Hit{}
@@ -132,14 +124,12 @@ void RayScene::closest(std::span<const Ray> rays, std::span<Hit> hits) const {
 }
 
 void RayScene::occluded(std::span<const Ray> rays, std::span<std::uint8_t> blocked) const {
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
     for (std::size_t begin = 0; begin < rays.size(); begin += kPacket) {
         const std::size_t count = std::min(kPacket, rays.size() - begin);
         alignas(32) RTCRay8 packet;
         alignas(32) std::array<int, kPacket> valid;
         fillPacket(rays.subspan(begin, count), packet, valid);
-        rtcOccluded8(valid.data(), impl_->scene, &context, &packet);
+        embree::occluded(valid.data(), impl_->scene, packet);
         for (std::size_t i = 0; i < count; ++i) blocked[begin + i] = packet.tfar[i] < 0;
     }
 }

@@ -1,0 +1,198 @@
+// vlf bake: from scene files to a field file.
+
+#include "commands.h"
+#include "console.h"
+#include "picture_output.h"
+
+#include "vlf/base/error.h"
+#include "vlf/io/field_file.h"
+#include "vlf/propagate/bake.h"
+#include "vlf/propagate/bundle_sweep.h"
+#include "vlf/propagate/memory.h"
+#include "vlf/scene/import/import.h"
+#include "vlf/scene/scene_hash.h"
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <sys/resource.h>
+
+namespace vlf::app {
+
+namespace {
+
+struct Options {
+    std::vector<std::string> scenes;
+    std::string output, json, preset = "standard", bounces = "auto", instructionSet;
+    int directions = 0, cells = 0, tile = 0, samples = 0;
+    int radianceDirections = -1, radianceCells = 0;
+    float texel = 0;
+    double maxMemory = 0;  // GiB
+};
+
+BakeParams bakeParams(const Options& o, const Globals& globals) {
+    BakeParams p = presetParams(o.preset);
+    p.seed = globals.seed;
+    if (o.directions > 0) p.directions = o.directions;
+    if (o.cells > 0) p.cells = o.cells;
+    if (o.tile > 0) p.tileSize = o.tile;
+    if (o.samples > 0) p.directSamples = o.samples;
+    if (o.radianceDirections >= 0) p.radianceDirections = o.radianceDirections;
+    if (o.radianceCells > 0) p.radianceCells = o.radianceCells;
+    if (o.texel > 0) p.texelSize = o.texel;
+    if (o.bounces != "auto") p.maxBounces = std::stoi(o.bounces);
+    return p;
+}
+
+Scene readScene(const Options& options, const Globals& globals) {
+    ImportReport report;
+    Scene scene = importScene(options.scenes, report);
+    for (const std::string& warning : report.warnings) printWarning(globals.quiet, warning);
+    if (scene.cameras.empty()) scene.cameras.push_back(defaultCamera(scene));
+    const bool lit = std::any_of(scene.triangles.begin(), scene.triangles.end(), [&](const auto& t) {
+        return scene.materials[t.material].isEmitter();
+    });
+    if (!lit) printWarning(globals.quiet, "the scene has no emitter: everything will be black");
+    return scene;
+}
+
+double peakMebibytes() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return static_cast<double>(usage.ru_maxrss) / 1024;
+}
+
+std::vector<float> numbers(const Vec3& v) { return {v.x, v.y, v.z}; }
+
+nlohmann::ordered_json toJson(const Options& options, const BakeReport& report,
+                              const BakeRecord& record, double seconds) {
+    nlohmann::ordered_json stages = nlohmann::ordered_json::array();
+    for (const BakeReport::Stage& s : report.stages)
+        stages.push_back({{"name", s.name}, {"seconds", s.seconds}, {"cpuSeconds", s.cpuSeconds}});
+    const EnergyReport& e = report.energy;
+    return {{"scenes", options.scenes},
+            {"output", options.output},
+            {"preset", record.preset},
+            {"instructionSet", record.instructionSet},
+            {"directions", record.directions},
+            {"cells", record.cells},
+            {"texelSize", record.texelSize},
+            {"texels", report.texels},
+            {"radianceElements", report.radianceElements},
+            {"fileBytes", std::filesystem::file_size(options.output)},
+            {"exchanges", report.exchanges},
+            {"bounces", report.sweeps},
+            {"residual", report.residual},
+            {"energy",
+             {{"emitted", numbers(e.emitted)},
+              {"absorbed", numbers(e.absorbed)},
+              {"unshot", numbers(e.unshot)},
+              {"escaped", numbers(e.escaped)}}},
+            {"stages", stages},
+            {"seconds", seconds},
+            {"peakMemoryMiB", peakMebibytes()}};
+}
+
+void printReport(const Options& options, const BakeReport& report, double seconds) {
+    fmt::print("{}: {} texels, {} radiance elements, {:.1f} MB\n", options.output, report.texels,
+               report.radianceElements,
+               static_cast<double>(std::filesystem::file_size(options.output)) / 1e6);
+    for (const BakeReport::Stage& s : report.stages)
+        fmt::print("  {:<16} {:7.2f} s  ({:.2f} s CPU)\n", s.name, s.seconds, s.cpuSeconds);
+    const EnergyReport& e = report.energy;
+    fmt::print("  {} bounces, {:.1f} M exchanges, light still missing {:.2g} %\n", report.sweeps,
+               1e-6 * static_cast<double>(report.exchanges), 100 * report.residual);
+    fmt::print("  energy: {:.4g} W emitted, {:.4g} W absorbed, {:.2g} W unshot, {:.4g} W escaped\n",
+               luminance(e.emitted), luminance(e.absorbed), luminance(e.unshot),
+               luminance(e.escaped));
+    fmt::print("  {:.2f} s in all, peak memory {:.0f} MiB\n", seconds, peakMebibytes());
+}
+
+void run(const Options& options, const Globals& globals) {
+    for (const std::string& path : {options.output, options.json}) requireFolderOf(path);
+    if (!options.instructionSet.empty()) useInstructionSet(options.instructionSet);
+    const auto start = std::chrono::steady_clock::now();
+    const BakeParams params = bakeParams(options, globals);
+    BakedRoom room;
+    room.scene = readScene(options, globals);
+    if (options.maxMemory > 0)
+        requireMemory(room.scene, params,
+                      static_cast<std::uint64_t>(options.maxMemory * 1024 * 1024 * 1024));
+    BakeReport report;
+    {
+        ConsoleProgress progress(globals.quiet);
+        room.field = bake(room.scene, params, progress, &report);
+        progress.stage("writing");
+        room.field.record.programVersion = VLF_VERSION;
+        room.field.record.sceneHash = sceneHash(room.scene);
+        writeField(options.output, room);
+    }
+    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+    if (!options.json.empty())
+        writeJson(options.json, toJson(options, report, room.field.record, seconds.count()));
+    if (!globals.quiet) printReport(options, report, seconds.count());
+}
+
+std::string checkBounces(const std::string& text) {
+    if (text == "auto") return {};
+    const bool digits = !text.empty() && text.size() < 5 &&
+                        text.find_first_not_of("0123456789") == std::string::npos;
+    return digits && std::stoi(text) > 0 ? std::string() : "must be 'auto' or a number above 0";
+}
+
+void addQuality(CLI::App& command, Options& o) {
+    CLI::Option_group* group = command.add_option_group(
+        "Quality", "A preset, and single settings that override it");
+    group->add_option("--preset", o.preset, "draft, standard or high")
+        ->capture_default_str()
+        ->check(CLI::IsMember({"draft", "standard", "high"}));
+    group->add_option("--directions", o.directions, "Lines of the direction set")
+        ->check(CLI::IsMember({129, 513, 2049, 8193}));
+    group->add_option("--cells", o.cells, "Rays along one side of a bundle")
+        ->check(CLI::Range(16, 8192));
+    group->add_option("--texel", o.texel, "Texel size in metres (default: from a budget of texels)")
+        ->check(CLI::PositiveNumber);
+    group->add_option("--direct-samples", o.samples, "Shadow rays per texel outside penumbrae")
+        ->check(CLI::Range(1, 4096));
+    group->add_option("--bounces", o.bounces, "auto: until the light has come to rest; or a number")
+        ->capture_default_str()
+        ->check(checkBounces);
+    group->add_option("--radiance-directions", o.radianceDirections,
+                      "Lines of the mirrors' radiance field (0: none)")
+        ->check(CLI::IsMember({0, 129, 513, 2049, 8193}));
+    group->add_option("--radiance-cells", o.radianceCells, "Its cells along one side")
+        ->check(CLI::Range(16, 4096));
+    group->add_option("--tile", o.tile, "Its tiles, cells along one side")
+        ->check(CLI::IsMember({4, 8, 16, 32, 64}));
+}
+
+}  // namespace
+
+void addBake(CLI::App& app, const Globals& globals) {
+    const auto options = std::make_shared<Options>();
+    CLI::App* command = app.add_subcommand("bake", "Solve a scene's light and write a field file");
+    command->add_option("scenes", options->scenes, "Scene files (.obj, .gltf, .glb), merged")
+        ->required()
+        ->type_name("SCENE...");
+    command->add_option("-o,--output", options->output, "Field file to write (.vlf)")->required();
+    addQuality(*command, *options);
+    command->add_option("--max-memory", options->maxMemory, "Refuse to need more, in GiB")
+        ->check(CLI::PositiveNumber);
+    command->add_option("--isa", options->instructionSet,
+                        "Instruction set of the sweeps, e.g. AVX2 (default: the best there is)");
+    command->add_option("--json", options->json, "Write a report of times, counts and energy");
+    command->footer(
+        "Examples:\n"
+        "  vlf bake room.obj -o room.vlf\n"
+        "  vlf bake room.glb lights.obj -o room.vlf --preset high --texel 0.03\n"
+        "Ctrl-C stops; a field file that was there before is left as it was.");
+    command->callback([options, &globals] { run(*options, globals); });
+}
+
+}  // namespace vlf::app

@@ -1,0 +1,81 @@
+#include "picture_output.h"
+
+#include "vlf/base/error.h"
+#include "vlf/base/file.h"
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <map>
+
+#include <nlohmann/json.hpp>
+
+namespace vlf::app {
+
+namespace {
+
+const std::map<std::string, ToneCurve> kToneNames{{"filmic", ToneCurve::filmic},
+                                                  {"linear", ToneCurve::clamp}};
+
+std::string lowerExtension(const std::string& path) {
+    std::string extension = std::filesystem::path(path).extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return extension;
+}
+
+/// Empty if pictures can be written under this name, else what is wrong (a CLI11 validator).
+std::string pictureNameProblem(const std::string& path) {
+    const std::string extension = lowerExtension(path);
+    return extension == ".exr" || extension == ".png" ? "" : path + " must end in .exr or .png";
+}
+
+/// Empty if the text is an exposure, else what is wrong with it (a CLI11 validator).
+std::string exposureProblem(const std::string& text) {
+    double value = 0;
+    if (text == "auto" || (CLI::detail::lexical_cast(text, value) && std::abs(value) <= 100))
+        return {};
+    return "must be auto or a number of EV between -100 and 100";
+}
+
+}  // namespace
+
+void addPictureOptions(CLI::App& command, PictureOptions& options) {
+    command
+        .add_option("-o,--output", options.path,
+                    "Picture to write: .exr (linear radiance) or .png (tone-mapped)")
+        ->required()
+        ->check(pictureNameProblem, "picture name")
+        ->type_name("FILE");
+    command.add_option("--exposure", options.exposure, "EV applied to a .png; auto: middle grey")
+        ->check(exposureProblem, "exposure")
+        ->type_name("EV|auto")
+        ->capture_default_str();
+    command.add_option("--tone", options.tone, "Tone curve of a .png")
+        ->transform(CLI::CheckedTransformer(kToneNames))
+        ->option_text("filmic|linear [filmic]");
+}
+
+void requireFolderOf(const std::string& path) {
+    const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+    std::error_code ignored;
+    if (!folder.empty() && !std::filesystem::is_directory(folder, ignored))
+        throw FileError(path, "there is no folder '" + folder.string() + "'; create it first");
+}
+
+void writePicture(const PictureOptions& options, const Image& radiance,
+                  const ImageAttributes& attributes) {
+    if (lowerExtension(options.path) == ".exr") return writeExr(options.path, radiance, attributes);
+    const float exposure =
+        options.exposure == "auto" ? autoExposure(radiance) : std::stof(options.exposure);
+    writePng(options.path, toneMap(radiance, exposure, options.tone));
+}
+
+void writeJson(const std::string& path, const nlohmann::ordered_json& report) {
+    // Names of files need not be UTF-8.
+    const std::string text =
+        report.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+    writeFile(path, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+}
+
+}  // namespace vlf::app

@@ -1,0 +1,33 @@
+#pragma once
+// Writing what a command has computed: pictures by the ending of their name, reports as JSON.
+
+#include "vlf/image/image_io.h"
+#include "vlf/image/tone_map.h"
+
+#include <string>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json_fwd.hpp>
+
+namespace vlf::app {
+
+struct PictureOptions {
+    std::string path;               ///< .exr: linear radiance; .png: tone-mapped, for looking at
+    std::string exposure = "auto";  ///< of a .png: "auto" or EV
+    ToneCurve tone = ToneCurve::filmic;  ///< of a .png
+};
+
+/// Declares -o/--output (required), --exposure and --tone. `options` must outlive the parsing.
+void addPictureOptions(CLI::App& command, PictureOptions& options);
+
+/// Throws FileError if the folder of `path` is missing: to be asked before long work.
+void requireFolderOf(const std::string& path);
+
+/// Writes radiance to the file the options name; `attributes` go into the header of an EXR.
+void writePicture(const PictureOptions& options, const Image& radiance,
+                  const ImageAttributes& attributes = {});
+
+/// Writes a report, indented.
+void writeJson(const std::string& path, const nlohmann::ordered_json& report);
+
+}  // namespace vlf::app

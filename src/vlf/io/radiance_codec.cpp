@@ -1,0 +1,227 @@
+#include "vlf/io/radiance_codec.h"
+
+#include "vlf/io/grid_codec.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+
+namespace vlf {
+
+namespace {
+
+constexpr std::uint64_t kGroupElements = 65536;
+
+/// Distance, green, red - green, blue - green: the colour channels as bfloat16, whose bits are
+/// nearly a logarithm, so that differences of channels do not change with brightness.
+using Code = std::array<std::uint16_t, 4>;
+
+constexpr std::uint16_t kChroma = 0x8000;  ///< keeps differences of channels positive
+constexpr int kDistanceShift = 4;
+constexpr std::uint32_t kMaxDistance = 0xffff >> kDistanceShift;
+
+/// Upper half of a float, rounded to nearest, ties to even.
+std::uint16_t toBfloat16(float value) {
+    const auto bits = std::bit_cast<std::uint32_t>(value);
+    return static_cast<std::uint16_t>((bits + 0x7fff + (bits >> 16 & 1)) >> 16);
+}
+
+float fromBfloat16(std::uint32_t code) {
+    constexpr std::uint32_t kLargest = 0x7f7f;
+    return std::bit_cast<float>(std::min(code & 0x7fff, kLargest) << 16);
+}
+
+Code toCode(const Vec3& radiance, std::uint16_t distance) {
+    const std::uint16_t r = toBfloat16(radiance.x), g = toBfloat16(radiance.y),
+                        b = toBfloat16(radiance.z);
+    const std::uint32_t d = (distance + (1u << (kDistanceShift - 1))) >> kDistanceShift;
+    return {static_cast<std::uint16_t>(std::clamp(d, 1u, kMaxDistance)), g,
+            static_cast<std::uint16_t>(r - g + kChroma),
+            static_cast<std::uint16_t>(b - g + kChroma)};
+}
+
+RadianceElement fromCode(const Code& code) {
+    const auto channel = [&](int i) { return fromBfloat16(code[1] + code[i] - kChroma); };
+    return {packRgb9e5({channel(2), fromBfloat16(code[1]), channel(3)}),
+            static_cast<std::uint16_t>(code[0] << kDistanceShift)};
+}
+
+/// The code of an element that a reader will turn into an element of the same code: rounding the
+/// brightest channel up may raise the shared exponent, which rounds the others once more.
+Code stableCode(const RadianceElement& element) {
+    const RadianceElement once = fromCode(toCode(unpackRgb9e5(element.rgb9e5), element.distance));
+    return toCode(unpackRgb9e5(once.rgb9e5), element.distance);
+}
+
+/// The codes of one tile with the last column, row and corner of its left, upper and upper left
+/// neighbours around it.
+class BorderedTile {
+  public:
+    explicit BorderedTile(int size)
+        : size_(size), stride_(size + 1), codes_(static_cast<std::size_t>(stride_) * stride_) {}
+
+    Code& at(int x, int y) { return codes_[static_cast<std::size_t>(y + 1) * stride_ + x + 1]; }
+
+    /// Neighbours that are absent (nullptr) continue those present; if all are, the border is 0.
+    void setBorder(const Code* left, const Code* up, const Code* upperLeft) {
+        const int last = size_ - 1;
+        const auto cell = [&](const Code* tile, int x, int y) { return tile[y * size_ + x]; };
+        at(-1, -1) = left && up && upperLeft ? cell(upperLeft, last, last)
+                     : up                    ? cell(up, 0, last)
+                     : left                  ? cell(left, last, 0)
+                                             : Code{};
+        for (int i = 0; i < size_; ++i) {
+            at(i, -1) = up ? cell(up, i, last) : at(-1, -1);
+            at(-1, i) = left ? cell(left, last, i) : at(-1, -1);
+        }
+    }
+
+    Code predict(int x, int y) {
+        const Code &left = at(x - 1, y), &up = at(x, y - 1), &upperLeft = at(x - 1, y - 1);
+        // A plane of distances is predicted exactly; colours have edges.
+        Code code{static_cast<std::uint16_t>(left[0] + up[0] - upperLeft[0])};
+        for (int c = 1; c < 4; ++c) code[c] = predictMedian(left[c], up[c], upperLeft[c]);
+        return code;
+    }
+
+  private:
+    int size_, stride_;
+    std::vector<Code> codes_;
+};
+
+/// One bit per element, lowest first: whether it is its chart's.
+bool bit(std::span<const std::uint8_t> mask, std::size_t i) {
+    return mask[i / 8] >> i % 8 & 1;
+}
+
+std::size_t countBits(std::span<const std::uint8_t> mask) {
+    std::size_t count = 0;
+    for (const std::uint8_t byte : mask) count += static_cast<std::size_t>(std::popcount(byte));
+    return count;
+}
+
+Code difference(const Code& code, const Code& prediction) {
+    Code residual;
+    for (int c = 0; c < 4; ++c)
+        residual[c] = zigzag<std::uint16_t>(static_cast<std::uint16_t>(code[c] - prediction[c]));
+    return residual;
+}
+
+Code sum(const Code& prediction, const Code& residual) {
+    Code code;
+    for (int c = 0; c < 4; ++c)
+        code[c] = static_cast<std::uint16_t>(prediction[c] + unzigzag(residual[c]));
+    return code;
+}
+
+/// High bytes of the four members, one member after the other, then the low bytes.
+void appendPlanes(std::vector<std::uint8_t>& bytes, const std::vector<Code>& residuals) {
+    for (const int shift : {8, 0})
+        for (int c = 0; c < 4; ++c)
+            for (const Code& residual : residuals)
+                bytes.push_back(static_cast<std::uint8_t>(residual[c] >> shift));
+}
+
+Code residualAt(std::span<const std::uint8_t> planes, std::size_t i) {
+    const std::size_t count = planes.size() / sizeof(Code);
+    Code residual;
+    for (int c = 0; c < 4; ++c)
+        residual[c] =
+            static_cast<std::uint16_t>(planes[c * count + i] << 8 | planes[(c + 4) * count + i]);
+    return residual;
+}
+
+}  // namespace
+
+/// Where a tile lies, and the steps back in the order of tiles to its neighbours; 0: none.
+struct TileGroups::Tile {
+    std::uint64_t firstElement = 0;
+    std::uint64_t toLeft = 0, toUp = 0;
+};
+
+TileGroups::TileGroups(const RadianceField& field)
+    : field_(field),
+      tileElements_(static_cast<std::uint64_t>(field.tileSize) * field.tileSize),
+      groupTiles_(kGroupElements / std::clamp<std::uint64_t>(tileElements_, 1, kGroupElements)),
+      firstTile_{0} {
+    firstTile_.reserve(field.blocks.size() + 1);
+    for (const TileBlock& block : field.blocks)
+        firstTile_.push_back(firstTile_.back() +
+                             static_cast<std::uint64_t>(block.tilesWide) * block.tilesHigh);
+}
+
+std::uint64_t TileGroups::groupElements(std::uint64_t g) const {
+    return std::min(groupTiles_, tileCount() - g * groupTiles_) * tileElements_;
+}
+
+TileGroups::Tile TileGroups::tileAt(std::uint64_t index) const {
+    const auto after = std::upper_bound(firstTile_.begin(), firstTile_.end(), index);
+    const auto b = static_cast<std::size_t>(after - firstTile_.begin()) - 1;
+    const TileBlock& block = field_.blocks[b];
+    const std::uint64_t inBlock = index - firstTile_[b];
+    return {block.firstElement + inBlock * tileElements_, inBlock % block.tilesWide > 0 ? 1u : 0u,
+            inBlock >= block.tilesWide ? block.tilesWide : 0u};
+}
+
+/// Calls visit(i, prediction), which returns the code of the group's element i, in order.
+template <class Visit>
+void TileGroups::visitPredicted(std::uint64_t g, const Visit& visit) const {
+    const int m = field_.tileSize;
+    std::vector<Code> codes(groupElements(g));
+    BorderedTile tile(m);
+    for (std::uint64_t t = 0, i = 0; i < codes.size(); ++t) {
+        const Tile place = tileAt(g * groupTiles_ + t);
+        const auto neighbour = [&](std::uint64_t back) -> const Code* {
+            return back > 0 && back <= t ? &codes[(t - back) * tileElements_] : nullptr;
+        };
+        tile.setBorder(neighbour(place.toLeft), neighbour(place.toUp),
+                       neighbour(place.toUp + place.toLeft));
+        for (int y = 0; y < m; ++y)
+            for (int x = 0; x < m; ++x, ++i)
+                codes[i] = tile.at(x, y) = visit(i, tile.predict(x, y));
+    }
+}
+
+std::vector<RadianceElement> TileGroups::gather(std::uint64_t g) const {
+    std::vector<RadianceElement> elements;
+    elements.reserve(groupElements(g));
+    for (std::uint64_t t = g * groupTiles_; elements.size() < groupElements(g); ++t) {
+        const RadianceElement* tile = field_.elements.data() + tileAt(t).firstElement;
+        elements.insert(elements.end(), tile, tile + tileElements_);
+    }
+    return elements;
+}
+
+std::vector<std::uint8_t> TileGroups::encode(std::uint64_t g) const {
+    const std::vector<RadianceElement> elements = gather(g);
+    std::vector<std::uint8_t> bytes((elements.size() + 7) / 8);
+    std::vector<Code> residuals;
+    visitPredicted(g, [&](std::uint64_t i, const Code& prediction) {
+        if (elements[i].distance == 0) return prediction;
+        bytes[i / 8] |= static_cast<std::uint8_t>(1 << i % 8);
+        const Code code = stableCode(elements[i]);
+        residuals.push_back(difference(code, prediction));
+        return code;
+    });
+    appendPlanes(bytes, residuals);
+    return bytes;
+}
+
+bool TileGroups::decode(std::uint64_t g, std::span<const std::uint8_t> bytes,
+                        std::span<RadianceElement> all) const {
+    const auto elements = all.subspan(g * groupTiles_ * tileElements_, groupElements(g));
+    const std::size_t maskBytes = (elements.size() + 7) / 8;
+    if (bytes.size() < maskBytes) return false;
+    const auto mask = bytes.first(maskBytes), planes = bytes.subspan(maskBytes);
+    if (planes.size() != countBits(mask) * sizeof(Code)) return false;
+    std::size_t next = 0;
+    visitPredicted(g, [&](std::uint64_t i, const Code& prediction) {
+        if (!bit(mask, i)) return prediction;
+        const Code code = sum(prediction, residualAt(planes, next++));
+        elements[i] = fromCode(code);
+        return code;
+    });
+    return true;
+}
+
+}  // namespace vlf

@@ -1,0 +1,206 @@
+#include "vlf/io/validate.h"
+
+#include "vlf/base/error.h"
+#include "vlf/base/parallel.h"
+#include "vlf/io/radiance_codec.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace vlf {
+
+namespace {
+
+constexpr int kMaxImageSize = 65536;
+
+/// Reports faults of one chunk.
+class Checker {
+  public:
+    Checker(const std::string& path, const std::string& chunk)
+        : where_{path, 0, "chunk " + chunk} {}
+
+    void operator()(bool good, std::size_t element, const char* fault) const {
+        if (!good) fail("element " + std::to_string(element) + " " + fault);
+    }
+    void operator()(bool good, const char* fault) const {
+        if (!good) fail(fault);
+    }
+
+  private:
+    [[noreturn]] void fail(const std::string& fault) const {
+        throw InputError(where_, fault + "; bake the scene again");
+    }
+    SourceLocation where_;
+};
+
+bool isFinite(const Vec2& v) {
+    return std::isfinite(v.x) && std::isfinite(v.y);
+}
+
+bool isLight(const Vec3& v) {
+    return isFinite(v) && v.x >= 0 && v.y >= 0 && v.z >= 0;
+}
+
+template <class T>
+void checkFinite(const std::vector<T>& values, const Checker& check) {
+    for (std::size_t i = 0; i < values.size(); ++i) check(isFinite(values[i]), i, "is not finite");
+}
+
+void checkTriangles(const Scene& scene, const std::string& path) {
+    const Checker check(path, "triangles");
+    for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
+        const Triangle& t = scene.triangles[i];
+        for (const std::uint32_t v : t.vertex)
+            check(v < scene.positions.size(), i, "refers to a vertex that does not exist");
+        check(t.material < scene.materials.size(), i, "refers to a material that does not exist");
+    }
+}
+
+void checkMeshes(const Scene& scene, const std::string& path) {
+    const Checker check(path, "meshes");
+    for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
+        const Mesh& mesh = scene.meshes[i];
+        check(std::uint64_t{mesh.firstTriangle} + mesh.triangleCount <= scene.triangles.size(), i,
+              "refers to a triangle that does not exist");
+    }
+}
+
+void checkMaterials(const Scene& scene, const std::string& path) {
+    const Checker check(path, "materials");
+    const int textures = static_cast<int>(scene.textures.size());
+    for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+        const Material& m = scene.materials[i];
+        check(isLight(m.diffuse) && isLight(m.mirror) && isLight(m.emission), i,
+              "is not finite or negative");
+        for (const int t : {m.diffuseTexture, m.mirrorTexture, m.emissionTexture})
+            check(t >= -1 && t < textures, i, "refers to a texture that does not exist");
+    }
+}
+
+void checkTextures(const Scene& scene, const std::string& path) {
+    const Checker check(path, "textures");
+    for (std::size_t i = 0; i < scene.textures.size(); ++i) {
+        const Texture& t = scene.textures[i];
+        check(
+            t.width >= 1 && t.height >= 1 && t.width <= kMaxImageSize && t.height <= kMaxImageSize,
+            i, "has a size outside 1 to 65536");
+        check(t.wrapU <= Wrap::mirror && t.wrapV <= Wrap::mirror, i, "has an unknown wrap mode");
+        const std::size_t pixels = static_cast<std::size_t>(t.width) * t.height;
+        check(t.srgb8.empty() ? t.linear.size() == pixels
+                              : t.srgb8.size() == 4 * pixels && t.linear.empty(),
+              i, "has not as many pixels as its size says");
+        checkFinite(t.linear, Checker(path, "pixels.linear"));
+    }
+}
+
+void checkCameras(const Scene& scene, const std::string& path) {
+    const Checker check(path, "cameras");
+    for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
+        const Camera& c = scene.cameras[i];
+        check(isFinite(c.eye) && isFinite(c.look) && isFinite(c.up), i, "is not finite");
+        check(c.verticalFov > 0 && c.verticalFov < 180, i, "has a field of view outside (0, 180)");
+    }
+}
+
+bool isDirectionCount(int lines) {
+    for (int n = 0; n <= 8; ++n)
+        if (lines == 2 * (1 << 2 * n) + 1) return true;
+    return false;
+}
+
+void checkTileBlock(const RadianceField& radiance, std::size_t b, std::size_t charts,
+                    const Checker& check) {
+    const TileBlock& block = radiance.blocks[b];
+    const int tiles = (radiance.cells + radiance.tileSize - 1) / radiance.tileSize;
+    check(block.chart < charts, b, "refers to a chart that does not exist");
+    check(block.tilesWide > 0 && block.tilesHigh > 0, b, "is empty");
+    check(block.tileX + block.tilesWide <= tiles && block.tileY + block.tilesHigh <= tiles, b,
+          "lies outside its subfield");
+}
+
+}  // namespace
+
+void checkScene(const Scene& scene, const std::string& path) {
+    checkFinite(scene.positions, Checker(path, "positions"));
+    checkFinite(scene.normals, Checker(path, "normals"));
+    checkFinite(scene.uvs, Checker(path, "uvs"));
+    Checker(path, "normals")(scene.normals.size() == scene.positions.size(), "has a wrong length");
+    Checker(path, "uvs")(scene.uvs.size() == scene.positions.size(), "has a wrong length");
+    checkTriangles(scene, path);
+    checkMeshes(scene, path);
+    checkMaterials(scene, path);
+    checkTextures(scene, path);
+    checkCameras(scene, path);
+}
+
+void checkCharts(const LightField& field, const Scene& scene, const std::string& path) {
+    const Checker check(path, "charts"), checkSides(path, "triangle charts");
+    for (std::size_t i = 0; i < field.charts.size(); ++i) {
+        const Chart& c = field.charts[i];
+        check(isFinite(c.uAxis) && isFinite(c.vAxis) && isFinite(c.normal) &&
+                  std::isfinite(c.uOffset) && std::isfinite(c.vOffset),
+              i, "is not finite");
+        const auto inside = [](std::uint64_t first, std::uint64_t size, std::uint64_t all) {
+            return size > 0 && first >= kGutter && first + size + kGutter <= all;
+        };
+        check(inside(c.x, c.width, field.atlas.width) && inside(c.y, c.height, field.atlas.height),
+              i, "lies outside the atlas");
+        check(c.material < scene.materials.size(), i, "refers to a material that does not exist");
+    }
+    checkSides(field.triangleCharts.size() == scene.triangles.size(), "has a wrong length");
+    const auto exists = [&](std::uint32_t c) { return c == kNoChart || c < field.charts.size(); };
+    for (std::size_t i = 0; i < field.triangleCharts.size(); ++i)
+        checkSides(exists(field.triangleCharts[i].front) && exists(field.triangleCharts[i].back), i,
+                   "refers to a chart that does not exist");
+}
+
+void checkAtlas(const IrradianceAtlas& atlas, const std::string& path) {
+    const Checker check(path, "irradiance");
+    check(atlas.width <= kMaxImageSize && atlas.height <= kMaxImageSize,
+          "is wider or higher than 65536 texels");
+    check(atlas.irradiance.size() == std::size_t{atlas.width} * atlas.height,
+          "has a wrong number of texels");
+    parallelFor(atlas.height, 64, [&](std::size_t y) {
+        for (std::size_t i = y * atlas.width; i < (y + 1) * atlas.width; ++i)
+            check(isLight(atlas.irradiance[i]), i, "is not finite or negative");
+    });
+}
+
+void checkRadianceLayout(const RadianceField& radiance, std::size_t charts,
+                         const std::string& path) {
+    const Checker sizes(path, "summary"), check(path, "tile blocks"), order(path, "subfields");
+    if (radiance.empty()) {
+        check(radiance.blocks.empty() && radiance.elements.empty(), "has blocks but no directions");
+        return;
+    }
+    sizes(isDirectionCount(radiance.lines), "has a number of directions that is no direction set");
+    sizes(radiance.tileSize >= 1 && radiance.tileSize <= kMaxTileSize,
+          "has a tile size outside 1 to 256");
+    sizes(radiance.cells >= 1 && radiance.cells <= 65535, "has cells outside 1 to 65535");
+    sizes(std::isfinite(radiance.maxDistance) && radiance.maxDistance >= 0,
+          "has a longest distance that is not finite or negative");
+    const auto& first = radiance.firstBlock;
+    order(first.size() == 2 * static_cast<std::size_t>(radiance.lines) + 1, "has a wrong length");
+    order(first.front() == 0 && first.back() == radiance.blocks.size() &&
+              std::is_sorted(first.begin(), first.end()),
+          "does not cover the blocks");
+    for (std::size_t b = 0; b < radiance.blocks.size(); ++b)
+        checkTileBlock(radiance, b, charts, check);
+    for (std::size_t d = 0; d + 1 < first.size(); ++d)
+        for (std::size_t b = first[d] + 1; b < first[d + 1]; ++b)
+            check(radiance.blocks[b - 1].chart < radiance.blocks[b].chart, b, "is not sorted");
+}
+
+void checkRadianceElements(const RadianceField& radiance, const std::string& path) {
+    const Checker check(path, "tile blocks");
+    const auto tile = static_cast<std::uint64_t>(radiance.tileSize) * radiance.tileSize;
+    for (std::size_t b = 0; b < radiance.blocks.size(); ++b) {
+        const TileBlock& block = radiance.blocks[b];
+        const std::uint64_t count = tile * block.tilesWide * block.tilesHigh;
+        check(block.firstElement <= radiance.elements.size() &&
+                  count <= radiance.elements.size() - block.firstElement,
+              b, "refers to elements that do not exist");
+    }
+}
+
+}  // namespace vlf

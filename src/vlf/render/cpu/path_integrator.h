@@ -1,0 +1,56 @@
+#pragma once
+// Light transport by random walks: the unbiased truth the baked field is measured against.
+// J. Kajiya, "The rendering equation", SIGGRAPH 1986; E. Veach and L. Guibas, "Optimally combining
+// sampling techniques for Monte Carlo rendering", SIGGRAPH 1995.
+
+#include "vlf/math/random.h"
+#include "vlf/render/cpu/emitter_sampler.h"
+#include "vlf/render/cpu/surface.h"
+
+#include <functional>
+#include <optional>
+
+namespace vlf {
+
+struct PathOptions {
+    int maxDepth = 0;            ///< segments of the longest path, the one that ends on the emitter
+                                 ///< included; 0: unlimited. 1: emitters seen directly
+    bool sampleEmitters = true;  ///< false: find emitters by chance alone (slow; the same result)
+};
+
+/// Whether light can reach a side of a triangle; false for the inside of a solid.
+using SideIsOpen = std::function<bool(std::uint32_t triangle, bool front)>;
+
+/// Estimators of radiance and irradiance. Refers to the scene and its rays, which must outlive it;
+/// safe to use from several threads, each with its own random stream.
+class PathIntegrator {
+  public:
+    PathIntegrator(const Scene& scene, const RayScene& rays, const PathOptions& options = {});
+
+    /// One unbiased sample of the radiance that arrives along a ray (of unit direction) from where
+    /// it points, W·m⁻²·sr⁻¹.
+    Vec3 radiance(const Ray& ray, RandomStream& random) const;
+
+    /// One unbiased sample of the irradiance at a surface point, W·m⁻². Nothing if the direction
+    /// drawn for the sample meets a side of which `isOpen` is false: the point lies within a solid.
+    std::optional<Vec3> irradiance(const SidePoint& point, const SideIsOpen& isOpen,
+                                   RandomStream& random) const;
+
+  private:
+    struct Path;
+
+    Vec3 followPath(Path path, RandomStream& random) const;
+    Vec3 emitterSeen(const Path& path, const SidePoint& point) const;
+    Vec3 directLight(const Surface& surface, float diffuseChance, RandomStream& random) const;
+    void scatter(const Surface& surface, float diffuseChance, Path& path,
+                 RandomStream& random) const;
+    Ray rayFrom(const Surface& surface, const Vec3& direction) const;
+    bool visible(const Surface& surface, const Surface& emitter) const;
+
+    const Scene& scene_;
+    const RayScene& rays_;
+    PathOptions options_;
+    EmitterSampler emitters_;
+};
+
+}  // namespace vlf

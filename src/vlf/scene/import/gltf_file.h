@@ -1,0 +1,47 @@
+#pragma once
+// glTF 2.0 and GLB files in memory, and checked access to their data.
+
+#include "vlf/base/error.h"
+#include "vlf/math/vector.h"
+#include "vlf/scene/import/import.h"
+
+#include <tiny_gltf.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace vlf {
+
+/// A glTF document with its buffers. Images hold the undecoded bytes of their files in
+/// tinygltf::Image::image (empty: not found).
+struct GltfFile {
+    std::string path;
+    tinygltf::Model model;
+
+    SourceLocation at(const std::string& element) const { return {path, 0, element}; }
+};
+
+/// Reads a .gltf or .glb file (told apart by content) and the buffers and images beside it. Throws
+/// InputError for a malformed file, glTF 1.0 and required extensions that are not supported;
+/// other unsupported extensions are reported.
+GltfFile readGltf(const std::string& path, ImportReport& report);
+
+/// The elements of an accessor of `components` (1 to 4) numbers, one after the other; normalised
+/// integers as fractions, sparse values put in. Throws InputError, naming `element` as the user of
+/// the accessor, if it does not exist, has another type, or lies outside of its buffer.
+std::vector<float> readNumbers(const GltfFile& file, int accessor, int components,
+                               const std::string& element);
+
+/// readNumbers of three or two components as vectors.
+std::vector<Vec3> readVec3s(const GltfFile& file, int accessor, const std::string& element);
+std::vector<Vec2> readVec2s(const GltfFile& file, int accessor, const std::string& element);
+
+/// The elements of an accessor of unsigned integers, each less than `limit`.
+std::vector<std::uint32_t> readIndices(const GltfFile& file, int accessor, std::size_t limit,
+                                       const std::string& element);
+
+/// The bytes of an image, from its file, its data URI or its buffer view.
+std::vector<std::uint8_t> imageBytes(const GltfFile& file, int image);
+
+}  // namespace vlf

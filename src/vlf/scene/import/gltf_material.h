@@ -1,0 +1,34 @@
+#pragma once
+// Materials of glTF files.
+
+#include "vlf/scene/import/gltf_file.h"
+
+#include <cstdint>
+#include <optional>
+
+namespace vlf {
+
+/// Which texture coordinates a material's textures read: uv' = offset + scaleRotate * uv, in the
+/// coordinates of glTF (v down).
+struct GltfUvMapping {
+    int set = 0;  ///< n of TEXCOORD_n
+    glm::mat2 scaleRotate{1};
+    Vec2 offset{0};
+
+    bool operator==(const GltfUvMapping&) const = default;
+};
+
+/// What a material of the file stands for in the scene.
+struct GltfMaterial {
+    std::optional<std::uint32_t>
+        index;  ///< into Scene::materials; nothing: its surfaces are left out
+    GltfUvMapping uv;
+};
+
+/// Adds the materials of the file and their textures to the scene. The result runs parallel to the
+/// file's materials. Throws InputError for references to textures that do not exist; images that
+/// are missing or cannot be decoded are reported.
+std::vector<GltfMaterial> addGltfMaterials(Scene& scene, const GltfFile& file,
+                                           ImportReport& report);
+
+}  // namespace vlf

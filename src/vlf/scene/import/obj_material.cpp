@@ -1,0 +1,228 @@
+#include "vlf/scene/import/obj_material.h"
+
+#include "vlf/scene/import/file_bytes.h"
+#include "vlf/scene/import/material_rules.h"
+#include "vlf/scene/import/warn.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <unordered_map>
+
+namespace vlf {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+const Vec3 kUnknownGrey(0.5f);
+
+/// Phong exponent from which on a highlight counts as a mirror image, and the roughness (Pr) below
+/// which it does.
+constexpr float kMirrorExponent = 500;
+constexpr float kMirrorRoughness = 0.05f;
+
+/// The file that `name`, as written in the file `from`, means: relative to its folder, with
+/// backslashes for slashes, or, of a path of another machine, the bare name.
+std::optional<fs::path> findBeside(const std::string& from, std::string name) {
+    const fs::path folder = fs::path(from).parent_path();
+    std::vector<fs::path> candidates{folder / name};
+    std::replace(name.begin(), name.end(), '\\', '/');
+    candidates.push_back(folder / name);
+    candidates.push_back(folder / fs::path(name).relative_path());
+    candidates.push_back(folder / fs::path(name).filename());
+    for (const fs::path& candidate : candidates) {
+        std::error_code ignored;
+        if (fs::is_regular_file(candidate, ignored)) return candidate;
+    }
+    return std::nullopt;
+}
+
+bool isPositive(const std::optional<Vec3>& colour) {
+    return colour && maxComponent(*colour) > 0;
+}
+
+enum class Specular { none, mirror, glossy };
+
+Specular specularKind(const MtlMaterial& m) {
+    if (!isPositive(m.specular) && m.specularMap.file.empty()) return Specular::none;
+    const int model = m.illumination.value_or(2);
+    if (model <= 1) return Specular::none;
+    if (model == 3 || model == 5) return Specular::mirror;
+    if (m.roughness) return *m.roughness < kMirrorRoughness ? Specular::mirror : Specular::glossy;
+    return m.exponent.value_or(kMirrorExponent) < kMirrorExponent ? Specular::glossy
+                                                                  : Specular::mirror;
+}
+
+/// Illumination models 4, 6, 7 and 9 are glass.
+float opacityOf(const MtlMaterial& m) {
+    const int model = m.illumination.value_or(2);
+    if (model == 4 || model == 6 || model == 7 || model == 9) return 0;
+    return m.opacity.value_or(1);
+}
+
+/// A factor that the file leaves out is 1 where there is a texture, else `otherwise`.
+Vec3 factorOf(const std::optional<Vec3>& factor, int texture, const Vec3& otherwise) {
+    return factor.value_or(texture >= 0 ? Vec3(1) : otherwise);
+}
+
+class MaterialBuilder {
+  public:
+    MaterialBuilder(Scene& scene, ImportReport& report) : scene_(scene), report_(report) {}
+
+    ObjMaterial add(const MtlMaterial& m) {
+        const SourceLocation where{m.path, m.line, fmt::format("material '{}'", m.name)};
+        ObjMaterial result;
+        if (leaveOutTransparent(opacityOf(m), report_, where)) return result;
+        if (!m.opacityMap.file.empty())
+            warn(report_, where, "alpha masks are not supported; treated as opaque");
+        setTextureTransform(result, m, where);
+        Material material;
+        material.name = m.name;
+        material.diffuseTexture = loadTexture(m, m.diffuseMap);
+        material.emissionTexture = loadTexture(m, m.emissionMap);
+        const bool special = isPositive(m.specular) || isPositive(m.emission);
+        material.diffuse =
+            factorOf(m.diffuse, material.diffuseTexture, special ? Vec3(0) : kUnknownGrey);
+        material.emission = factorOf(m.emission, material.emissionTexture, Vec3(0));
+        addSpecular(material, m, where);
+        result.index = addMaterial(std::move(material));
+        return result;
+    }
+
+    ObjMaterial addGrey(const std::string& name) {
+        Material material;
+        material.name = name;
+        material.diffuse = kUnknownGrey;
+        return {addMaterial(std::move(material)), Vec2(1), Vec2(0)};
+    }
+
+  private:
+    std::uint32_t addMaterial(Material material) {
+        scene_.materials.push_back(std::move(material));
+        return static_cast<std::uint32_t>(scene_.materials.size() - 1);
+    }
+
+    void addSpecular(Material& material, const MtlMaterial& m, const SourceLocation& where) {
+        const Specular kind = specularKind(m);
+        if (kind == Specular::none) return;
+        const int texture = loadTexture(m, m.specularMap);
+        const Vec3 factor = factorOf(m.specular, texture, Vec3(0));
+        if (kind == Specular::mirror) {
+            material.mirror = factor;
+            material.mirrorTexture = texture;
+        } else {
+            const Vec3 mean = texture < 0 ? Vec3(1) : scene_.textures[texture].average();
+            addGlossyAsDiffuse(scene_, material, factor * mean, report_, where);
+        }
+    }
+
+    /// One transform serves all textures of a material: that of the first.
+    void setTextureTransform(ObjMaterial& result, const MtlMaterial& m,
+                             const SourceLocation& where) {
+        const MtlTexture* first = nullptr;
+        for (const MtlTexture* map : {&m.diffuseMap, &m.emissionMap, &m.specularMap}) {
+            if (map->file.empty()) continue;
+            if (!first) {
+                first = map;
+                result.uvScale = map->scale;
+                result.uvOffset = map->offset;
+            } else if (map->scale != first->scale || map->offset != first->offset) {
+                warn(report_, where,
+                     "textures with different -s or -o options; those of the first "
+                     "texture are used for all");
+            }
+        }
+    }
+
+    /// Index of the texture, -1 if there is none or (with a warning) it cannot be read.
+    int loadTexture(const MtlMaterial& m, const MtlTexture& map) {
+        if (map.file.empty()) return -1;
+        const SourceLocation where{m.path, map.line, fmt::format("material '{}'", m.name)};
+        const auto path = findBeside(m.path, map.file);
+        if (!path) {
+            warn(report_, where,
+                 fmt::format("texture '{}' not found; its factor alone is used", map.file));
+            return -1;
+        }
+        const auto [entry, isNew] = textures_.try_emplace({path->string(), map.clamp}, -1);
+        if (isNew) entry->second = readTexture(path->string(), map.clamp, where);
+        return entry->second;
+    }
+
+    int readTexture(const std::string& path, bool clamp, const SourceLocation& where) {
+        const Wrap wrap = clamp ? Wrap::clamp : Wrap::repeat;
+        try {
+            scene_.textures.push_back(
+                toTexture(readTextureImage(path), fs::path(path).filename().string(), wrap, wrap));
+        } catch (const Error& error) {
+            warn(report_, where, fmt::format("{}; its factor alone is used", error.what()));
+            return -1;
+        }
+        return static_cast<int>(scene_.textures.size()) - 1;
+    }
+
+    Scene& scene_;
+    ImportReport& report_;
+    std::map<std::pair<std::string, bool>, int> textures_;
+};
+
+/// The operand of mtllib is one name or several, each perhaps with blanks in it: the longest runs
+/// of words that are files count as names.
+std::vector<std::string> libraryNames(const std::string& objPath, const std::string& operand) {
+    std::vector<std::string> names;
+    std::string_view rest = operand;
+    while (!rest.empty()) {
+        std::size_t end = rest.size();
+        const std::size_t firstWord = std::min(rest.find_first_of(" \t"), end);
+        while (end > firstWord && !findBeside(objPath, std::string(rest.substr(0, end))))
+            end = std::max(firstWord, rest.find_last_of(" \t", end - 1));
+        names.emplace_back(rest.substr(0, end));
+        const std::size_t next = rest.find_first_not_of(" \t", end);
+        rest.remove_prefix(std::min(next, rest.size()));
+    }
+    return names;
+}
+
+/// All materials of the file's libraries by name; the first of a name counts.
+std::unordered_map<std::string, MtlMaterial> readLibraries(const ObjFile& file,
+                                                           ImportReport& report) {
+    std::unordered_map<std::string, MtlMaterial> materials;
+    for (const ObjName& library : file.libraries) {
+        for (const std::string& name : libraryNames(file.path, library.name)) {
+            const auto path = findBeside(file.path, name);
+            if (!path) {
+                warn(report, {file.path, library.line, ""},
+                     fmt::format("material library '{}' not found", name));
+                continue;
+            }
+            for (MtlMaterial& m : parseMtl(path->string(), readFileText(path->string()), report))
+                materials.try_emplace(m.name, m);
+        }
+    }
+    return materials;
+}
+
+}  // namespace
+
+std::vector<ObjMaterial> addObjMaterials(Scene& scene, const ObjFile& file, ImportReport& report) {
+    const auto library = readLibraries(file, report);
+    MaterialBuilder builder(scene, report);
+    std::vector<ObjMaterial> result;
+    for (const ObjName& used : file.materials) {
+        const auto found = library.find(used.name);
+        if (found == library.end())
+            warn(report, {file.path, used.line, ""},
+                 fmt::format("unknown material '{}': grey of reflectance 0.5 is used", used.name));
+        result.push_back(found == library.end() ? builder.addGrey(used.name)
+                                                : builder.add(found->second));
+    }
+    const bool needsDefault = std::any_of(file.faces.begin(), file.faces.end(),
+                                          [](const ObjFace& face) { return face.material < 0; });
+    result.push_back(needsDefault ? builder.addGrey("default") : ObjMaterial{});
+    return result;
+}
+
+}  // namespace vlf

@@ -1,0 +1,72 @@
+#include "vlf/base/file.h"
+
+#include "vlf/base/error.h"
+
+#include <filesystem>
+#include <iterator>
+
+#include <gtest/gtest.h>
+
+namespace vlf {
+namespace {
+
+namespace fs = std::filesystem;
+
+class FileTest : public testing::Test {
+  protected:
+    FileTest()
+        : folder_(fs::path(testing::TempDir()) /
+                  testing::UnitTest::GetInstance()->current_test_info()->name()) {
+        fs::remove_all(folder_);
+        fs::create_directories(folder_);
+    }
+    ~FileTest() override { fs::remove_all(folder_); }
+
+    std::string path(const char* name) const { return (folder_ / name).string(); }
+    auto fileCount() const { return std::distance(fs::directory_iterator(folder_), {}); }
+
+    const fs::path folder_;
+    const std::vector<std::uint8_t> oldBytes_{1, 2, 3}, newBytes_{0, 255, 10, 13, 0};
+};
+
+TEST_F(FileTest, ReadsBackWhatWasWritten) {
+    writeFile(path("a"), newBytes_);
+    EXPECT_EQ(readFile(path("a")), newBytes_);
+    writeFile(path("empty"), {});
+    EXPECT_TRUE(readFile(path("empty")).empty());
+}
+
+TEST_F(FileTest, ReplacesAnOldFileAndLeavesNothingElse) {
+    writeFile(path("a"), oldBytes_);
+    writeFile(path("a"), newBytes_);
+    EXPECT_EQ(readFile(path("a")), newBytes_);
+    EXPECT_EQ(fileCount(), 1);
+}
+
+TEST_F(FileTest, SaysWhichFileCannotBeRead) {
+    try {
+        readFile(path("missing"));
+        FAIL() << "nothing was thrown";
+    } catch (const FileError& e) {
+        EXPECT_NE(std::string(e.what()).find(path("missing")), std::string::npos) << e.what();
+    }
+    EXPECT_THROW(readFile(folder_.string()), FileError);
+}
+
+TEST_F(FileTest, FailsToWriteIntoAMissingFolder) {
+    EXPECT_THROW(writeFile(path("missing/a"), newBytes_), FileError);
+    EXPECT_EQ(fileCount(), 0);
+}
+
+TEST_F(FileTest, WritesToADeviceDirectly) {
+    EXPECT_NO_THROW(writeFile("/dev/null", newBytes_));
+    EXPECT_TRUE(fs::is_character_file("/dev/null"));
+}
+
+TEST_F(FileTest, SaysThatADeviceIsFull) {
+    if (!fs::exists("/dev/full")) GTEST_SKIP() << "this system has no /dev/full";
+    EXPECT_THROW(writeFile("/dev/full", newBytes_), FileError);
+}
+
+}  // namespace
+}  // namespace vlf

@@ -1,0 +1,220 @@
+#include "vlf/image/image_io.h"
+
+#include "vlf/base/error.h"
+#include "vlf/base/file.h"
+#include "vlf/image/srgb.h"
+
+#include "temporary_folder.h"
+
+#include <cmath>
+#include <csignal>
+
+#include <gtest/gtest.h>
+#include <stb_image_write.h>
+#include <sys/resource.h>
+
+namespace vlf {
+namespace {
+
+using Bytes = std::vector<std::uint8_t>;
+
+/// Every 8-bit value once in each channel.
+Image allBytes() {
+    Image image(16, 16);
+    for (int i = 0; i < 256; ++i)
+        image.pixels[i] = {linearFromSrgb8(static_cast<std::uint8_t>(i)),
+                           linearFromSrgb8(static_cast<std::uint8_t>(255 - i)),
+                           linearFromSrgb8(static_cast<std::uint8_t>(i ^ 85))};
+    return image;
+}
+
+Bytes pngBytes(const test::TemporaryFolder& folder) {
+    writePng(folder.path("source.png"), allBytes());
+    return readFile(folder.path("source.png"));
+}
+
+TEST(Png, RoundTripKeepsEveryEncodedValue) {
+    const test::TemporaryFolder folder;
+    writePng(folder.path("a.png"), allBytes());
+    const Image image = readImage(folder.path("a.png"));
+    ASSERT_EQ(image.width, 16);
+    ASSERT_EQ(image.height, 16);
+    EXPECT_EQ(image.pixels, allBytes().pixels);
+}
+
+TEST(Png, IsEncodedAsSrgb) {
+    const test::TemporaryFolder folder;
+    Image image(2, 1);
+    image.pixels = {{0.2159f, 0, 1}, {-1, 7, std::nanf("")}};  // 0.2159 is sRGB 128
+    writePng(folder.path("a.png"), image);
+    const DecodedImage decoded = readTextureImage(folder.path("a.png"));
+    EXPECT_EQ(decoded.srgb8, (Bytes{128, 0, 255, 255, 0, 255, 0, 255}));
+    EXPECT_TRUE(decoded.linear.empty());
+}
+
+TEST(Png, KeepsAlphaOfTextures) {
+    const test::TemporaryFolder folder;
+    const Bytes rgba{1, 2, 3, 4, 5, 6, 7, 8};
+    stbi_write_png(folder.path("a.png").c_str(), 2, 1, 4, rgba.data(), 8);
+    EXPECT_EQ(decodeImage(readFile(folder.path("a.png")), "texture").srgb8, rgba);
+}
+
+TEST(Jpeg, IsReadWithinItsLoss) {
+    const test::TemporaryFolder folder;
+    const Bytes grey(3 * 16 * 16, 100);
+    stbi_write_jpg(folder.path("a.jpg").c_str(), 16, 16, 3, grey.data(), 95);
+    EXPECT_NEAR(readImage(folder.path("a.jpg")).at(8, 8).y, linearFromSrgb8(100), 0.01f);
+}
+
+/// Bytes of a picture wide enough to be run-length encoded, and what it shows.
+struct HdrFile {
+    explicit HdrFile(const test::TemporaryFolder& folder) : image(20, 5) {
+        for (std::size_t i = 0; i < image.pixels.size(); ++i)
+            image.pixels[i] = {std::exp2(static_cast<float>(i / 9)), 0.5f,
+                               3e-5f * static_cast<float>(i % 13)};
+        const std::string path = folder.path("source.hdr");
+        stbi_write_hdr(path.c_str(), image.width, image.height, 3, &image.pixels[0].x);
+        bytes = readFile(path);
+    }
+    Image image;
+    Bytes bytes;
+};
+
+TEST(Hdr, IsReadAsLinearWithinItsMantissa) {
+    const test::TemporaryFolder folder;
+    const HdrFile file(folder);
+    writeFile(folder.path("a.hdr"), file.bytes);
+    const Image image = readImage(folder.path("a.hdr"));
+    ASSERT_EQ(image.pixels.size(), file.image.pixels.size());
+    for (std::size_t i = 0; i < image.pixels.size(); ++i)
+        for (int c = 0; c < 3; ++c)
+            EXPECT_NEAR(image.pixels[i][c], file.image.pixels[i][c],
+                        maxComponent(file.image.pixels[i]) / 128);
+    EXPECT_EQ(readTextureImage(folder.path("a.hdr")).linear, image.pixels);
+}
+
+TEST(Hdr, ReadsRowsThatAreNotEncoded) {
+    const std::string text = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n";
+    Bytes bytes(text.begin(), text.end());
+    bytes.insert(bytes.end(), {128, 64, 0, 129, 9, 9, 9, 0});
+    const DecodedImage image = decodeImage(bytes, "flat");
+    EXPECT_EQ(image.linear, (std::vector<Vec3>{{1, 0.5f, 0}, {0, 0, 0}}));
+}
+
+TEST(Hdr, RejectsEveryTruncation) {
+    const test::TemporaryFolder folder;
+    const HdrFile file(folder);
+    for (std::size_t size = 0; size < file.bytes.size(); ++size)
+        EXPECT_THROW(decodeImage({file.bytes.data(), size}, "cut"), InputError) << size;
+}
+
+TEST(Hdr, RejectsARunOfNothing) {
+    const std::string text = "#?RGBE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 8\n";
+    Bytes bytes(text.begin(), text.end());
+    bytes.insert(bytes.end(), {2, 2, 0, 8});
+    bytes.resize(bytes.size() + 100, 0);
+    EXPECT_THROW(decodeImage(bytes, "empty run"), InputError);
+}
+
+TEST(ImageFile, RejectsEveryTruncatedPng) {
+    const test::TemporaryFolder folder;
+    const Bytes png = pngBytes(folder);
+    for (std::size_t size = 0; size < png.size(); ++size)
+        EXPECT_THROW(decodeImage({png.data(), size}, "cut"), InputError) << size << " bytes";
+}
+
+TEST(ImageFile, RejectsATruncatedJpeg) {
+    const test::TemporaryFolder folder;
+    stbi_write_jpg(folder.path("a.jpg").c_str(), 64, 64, 3, Bytes(3 * 64 * 64, 9).data(), 90);
+    const Bytes jpeg = readFile(folder.path("a.jpg"));
+    for (std::size_t size = 0; size < jpeg.size(); size += 11)
+        EXPECT_THROW(decodeImage({jpeg.data(), size}, "cut"), InputError) << size << " bytes";
+}
+
+TEST(ImageFile, SurvivesDamagedBytes) {
+    const test::TemporaryFolder folder;
+    const Bytes png = pngBytes(folder);
+    for (std::size_t at = 0; at < png.size(); ++at) {
+        Bytes damaged = png;
+        damaged[at] ^= static_cast<std::uint8_t>(1 + 37 * at);
+        try {
+            decodeImage(damaged, "damaged");
+        } catch (const InputError&) {
+        }
+    }
+}
+
+TEST(ImageFile, RejectsASizeThatTheFileCannotHold) {
+    const test::TemporaryFolder folder;
+    Bytes png = pngBytes(folder);
+    png[17] = png[21] = 0x3f;  // width and height of millions
+    EXPECT_THROW(decodeImage(png, "huge"), InputError);
+}
+
+TEST(ImageFile, NamesTheFileThatIsNoImage) {
+    const test::TemporaryFolder folder;
+    writeFile(folder.path("a.png"), Bytes{'t', 'e', 'x', 't'});
+    try {
+        readImage(folder.path("a.png"));
+        FAIL() << "nothing was thrown";
+    } catch (const InputError& e) {
+        EXPECT_EQ(std::string(e.what()).find(folder.path("a.png")), 0u) << e.what();
+    }
+}
+
+TEST(ImageFile, RefusesFormatsThatAreNotSupported) {
+    const std::string gif = "GIF89a and more";
+    EXPECT_THROW(decodeImage(Bytes(gif.begin(), gif.end()), "gif"), InputError);
+}
+
+TEST(ImageFile, EmptyBytesAreAnInputError) {
+    EXPECT_THROW(decodeImage({}, "empty"), InputError);
+}
+
+TEST(ImageFile, MissingIsAFileError) {
+    const test::TemporaryFolder folder;
+    EXPECT_THROW(readImage(folder.path("missing.png")), FileError);
+    EXPECT_THROW(readTextureImage(folder.path("missing.exr")), FileError);
+}
+
+TEST(ImageFile, CannotBeWrittenIntoAMissingFolder) {
+    const test::TemporaryFolder folder;
+    EXPECT_THROW(writeExr(folder.path("no/a.exr"), Image(2, 2)), FileError);
+    EXPECT_THROW(writePng(folder.path("no/a.png"), Image(2, 2)), FileError);
+    EXPECT_EQ(folder.fileCount(), 0);
+}
+
+/// Stands for a full disk: while it lives, no file of this process grows beyond some bytes.
+class FileSizeLimit {
+  public:
+    explicit FileSizeLimit(rlim_t bytes) : oldHandler_(std::signal(SIGXFSZ, SIG_IGN)) {
+        getrlimit(RLIMIT_FSIZE, &old_);
+        const rlimit limit{bytes, old_.rlim_max};
+        setrlimit(RLIMIT_FSIZE, &limit);
+    }
+    ~FileSizeLimit() {
+        setrlimit(RLIMIT_FSIZE, &old_);
+        std::signal(SIGXFSZ, oldHandler_);
+    }
+
+  private:
+    rlimit old_{};
+    void (*oldHandler_)(int);
+};
+
+TEST(ImageFile, SurvivesAFullDiskWhenRewritten) {
+    const test::TemporaryFolder folder;
+    writeExr(folder.path("a.exr"), Image(2, 2, Vec3(3)));
+    Image noise(64, 64);
+    for (std::size_t i = 0; i < noise.pixels.size(); ++i)
+        noise.pixels[i] = Vec3(std::sin(1e4f * static_cast<float>(i)));
+    {
+        const FileSizeLimit limit(1000);
+        EXPECT_THROW(writeExr(folder.path("a.exr"), noise), FileError);
+    }
+    EXPECT_EQ(folder.fileCount(), 1);
+    EXPECT_EQ(readImage(folder.path("a.exr")).at(1, 1), Vec3(3));
+}
+
+}  // namespace
+}  // namespace vlf

@@ -1,0 +1,131 @@
+#include "unit/scene/import_support.h"
+#include "vlf/image/image_io.h"
+
+namespace vlf {
+namespace {
+
+/// Materials of MTL files: each test describes one.
+class ImportMtl : public test::ImportTest {
+  protected:
+    Material importMaterial(const std::string& statements) {
+        write("m.mtl", "newmtl paint\n" + statements);
+        scene_ = import(write(
+            "a.obj",
+            "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 4\nusemtl paint\nf 1 2 3\n"));
+        const Material* paint = test::findMaterial(scene_, "paint");
+        return paint ? *paint : Material{};
+    }
+
+    Scene scene_;
+};
+
+TEST_F(ImportMtl, IsDiffuseWithoutSpecularReflectance) {
+    const Material m = importMaterial("Kd 0.6 0.5 0.4\nKs 0 0 0\nNs 10\nillum 2\n");
+    test::expectNear(m.diffuse, {0.6f, 0.5f, 0.4f});
+    EXPECT_FALSE(m.isMirror());
+    EXPECT_FALSE(m.isEmitter());
+    EXPECT_TRUE(report_.warnings.empty());
+}
+
+TEST_F(ImportMtl, IsAMirrorIfTheIlluminationModelSaysSo) {
+    for (const char* model : {"3", "5"}) {
+        const Material m =
+            importMaterial(std::string("Kd 0.3 0.3 0.3\nKs 0.5 0.4 0.3\nNs 20\nillum ") + model);
+        test::expectNear(m.diffuse, Vec3(0.3f));
+        test::expectNear(m.mirror, {0.5f, 0.4f, 0.3f});
+    }
+    EXPECT_TRUE(report_.warnings.empty());
+}
+
+TEST_F(ImportMtl, IsAMirrorIfNothingMakesItRough) {
+    for (const char* rest : {"", "illum 2\nNs 1000\n", "illum 2\nPr 0\nNs 10\n"})
+        test::expectNear(importMaterial(std::string("Kd 0 0 0\nKs 0.9 0.9 0.9\n") + rest).mirror,
+                         Vec3(0.9f));
+}
+
+TEST_F(ImportMtl, HasNoHighlightInTheLambertianModels) {
+    for (const char* model : {"0", "1"})
+        EXPECT_FALSE(importMaterial(std::string("Kd 0.5 0.5 0.5\nKs 0.4 0.4 0.4\nillum ") + model)
+                         .isMirror());
+    EXPECT_TRUE(report_.warnings.empty());
+}
+
+TEST_F(ImportMtl, FoldsGlossyReflectionIntoTheDiffuseOneWithAWarning) {
+    for (const char* rest : {"Ns 100\n", "Ns 1000\nPr 0.3\n", "Ns 0\n"}) {
+        report_ = {};
+        const Material m =
+            importMaterial(std::string("Kd 0.5 0.5 0.5\nKs 0.1 0.2 0.3\nillum 2\n") + rest);
+        test::expectNear(m.diffuse, {0.6f, 0.7f, 0.8f});
+        EXPECT_FALSE(m.isMirror());
+        EXPECT_EQ(
+            warningsWith("m.mtl:1: material 'paint': glossy reflection is treated as diffuse"), 1);
+    }
+}
+
+TEST_F(ImportMtl, KeepsTheMeanReflectanceWhereGlossMeetsATexture) {
+    const float grey = 0.5f;
+    writePng(path("t.png"), Image(4, 4, Vec3(grey)));
+    importMaterial("Kd 0.5 0.5 0.5\nKs 0.1 0.1 0.1\nNs 50\nillum 2\nmap_Kd t.png\n");
+    const Material* paint = test::findMaterial(scene_, "paint");
+    const Vec3 mean = diffuseReflectance(scene_, *paint, Vec2(0));
+    test::expectNear(mean, Vec3(0.25f + 0.1f), 0.01f);
+    EXPECT_LE(paint->diffuse.x, 1);
+}
+
+TEST_F(ImportMtl, ScalesReflectancesThatSumToMoreThanOne) {
+    const Material m = importMaterial("Kd 0.8 0.4 0.2\nKs 0.8 0.8 0.8\nillum 3\n");
+    test::expectNear(m.diffuse, Vec3(0.5f, 0.25f, 0.125f));
+    test::expectNear(m.mirror, Vec3(0.5f));
+    EXPECT_EQ(warningsWith("'paint': reflects 1.60 times"), 1);
+}
+
+TEST_F(ImportMtl, RepairsUnusableValues) {
+    const Material m = importMaterial("Kd 0.5 -0.5 0.5\nKe -1 nan 0\nNs -5\nillum 99\nd 2\n");
+    test::expectNear(m.diffuse, {0.5f, 0, 0.5f});
+    test::expectNear(m.emission, Vec3(0));
+    EXPECT_EQ(warningsWith("m.mtl:3: 'nan'"), 1);
+    EXPECT_EQ(warningsWith("m.mtl:5: unknown illumination model '99'"), 1);
+    EXPECT_EQ(warningsWith("negative"), 1);
+}
+
+TEST_F(ImportMtl, EmitsKeTimesItsTexture) {
+    writePng(path("t.png"), Image(2, 2, Vec3(0, 1, 0)));
+    importMaterial("Ke 4 5 6\nmap_Ke t.png\n");
+    const Material* paint = test::findMaterial(scene_, "paint");
+    test::expectNear(emittedRadiance(scene_, *paint, Vec2(0)), {0, 5, 0});
+    test::expectNear(paint->diffuse, Vec3(0));
+    EXPECT_FALSE(paint->emitsBothSides);
+}
+
+TEST_F(ImportMtl, TakesATextureAloneAsItsReflectance) {
+    writePng(path("t.png"), Image(2, 2, Vec3(1, 0, 1)));
+    importMaterial("map_Kd t.png\n");
+    test::expectNear(diffuseReflectance(scene_, *test::findMaterial(scene_, "paint"), Vec2(0)),
+                     {1, 0, 1});
+}
+
+TEST_F(ImportMtl, LeavesGlassOutWithAWarning) {
+    for (const char* glass : {"illum 7\n", "illum 4\n", "d 0.1\n", "Tr 0.9\n"}) {
+        report_ = {};
+        importMaterial(std::string("Kd 0 0 0\nKs 1 1 1\n") + glass);
+        EXPECT_EQ(scene_.triangles.size(), 1u) << glass;
+        EXPECT_EQ(warningsWith("material 'paint': transparency is not supported"), 1) << glass;
+    }
+}
+
+TEST_F(ImportMtl, PrefersDToTr) {
+    importMaterial("Kd 0.5 0.5 0.5\nd 1\nTr 1\n");
+    EXPECT_EQ(scene_.triangles.size(), 2u);
+    importMaterial("Kd 0.5 0.5 0.5\nTr 1\nd 1\n");
+    EXPECT_EQ(scene_.triangles.size(), 2u);
+    EXPECT_TRUE(report_.warnings.empty());
+}
+
+TEST_F(ImportMtl, WarnsOfAlphaMasks) {
+    importMaterial("Kd 0.5 0.5 0.5\nmap_d leaf.png\n");
+    EXPECT_EQ(warningsWith("'paint': alpha masks are not supported"), 1);
+    EXPECT_EQ(scene_.triangles.size(), 2u);
+}
+
+}  // namespace
+}  // namespace vlf
