@@ -4,6 +4,7 @@
 #include "commands.h"
 #include "console.h"
 #include "picture_output.h"
+#include "reference_irradiance.h"
 
 #include "vlf/base/error.h"
 #include "vlf/render/cpu/path_tracer.h"
@@ -28,6 +29,8 @@ struct Options {
     int samplesPerPixel = 0;
     double targetError = 0, maxSeconds = 0;
     int maxDepth = 0;
+    std::string field;  // .vlf whose irradiance is to be measured
+    int texels = 0;
 };
 
 Scene readScene(const Options& options, const Globals& globals) {
@@ -103,6 +106,13 @@ void writeResult(const Options& options, const PathTraceParams& params,
 }
 
 void run(const Options& options, const Globals& globals) {
+    if (!options.field.empty()) {
+        if (options.samplesPerPixel <= 0)
+            throw CLI::ValidationError("--irradiance", "needs --spp, the samples per texel");
+        return runIrradianceReference({options.scenes, options.field, options.picture.path,
+                                       options.samplesPerPixel, options.texels},
+                                      globals);
+    }
     for (const std::string& path : {options.picture.path, options.variance, options.json})
         requireFolderOf(path);
     const Scene scene = readScene(options, globals);
@@ -154,10 +164,16 @@ void addReference(CLI::App& app, const Globals& globals) {
         ->check(CLI::Range(0, 1 << 20))
         ->capture_default_str();
     command->add_option("--json", options->json, "Write a report to this file");
+    command->add_option("--irradiance", options->field,
+                        "Measure the irradiance of this field file (.vlf) instead; -o is the "
+                        "report (.json), --spp the samples per texel");
+    command->add_option("--texels", options->texels, "Texels to measure (0: all)")
+        ->check(CLI::Range(0, 1 << 30));
     command->footer(
         "Ctrl-C writes the picture as far as it has come.\n\n"
         "Example:\n"
-        "  vlf reference room.obj --camera front --size 800x600 --error 0.02 -o reference.exr");
+        "  vlf reference room.obj --camera front --size 800x600 --error 0.02 -o reference.exr\n"
+        "  vlf reference room.obj --irradiance room.vlf --spp 4096 --texels 2000 -o error.json");
     command->callback([options, &globals] { run(*options, globals); });
 }
 

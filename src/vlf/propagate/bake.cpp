@@ -62,29 +62,12 @@ void findReflectances(BakeState& state) {
     });
 }
 
-/// A chart's area is shared among its texels by their number of points.
-void findTexelAreas(BakeState& state) {
-    const Unwrap& u = state.unwrap;
-    std::vector<double> area(u.charts.size(), 0), points(u.charts.size(), 0);
-    for (std::uint32_t t = 0; t < u.triangleCharts.size(); ++t)
-        for (const std::uint32_t c : {u.triangleCharts[t].front, u.triangleCharts[t].back})
-            if (c != kNoChart) area[c] += vlf::area(state.scene, t);
-    for (std::size_t i = 0; i < u.texels.size(); ++i)
-        points[u.texelChart[i]] += static_cast<double>(u.points.of(i).size());
-    state.texelArea.resize(u.texels.size());
-    for (std::size_t i = 0; i < u.texels.size(); ++i) {
-        const std::uint32_t c = u.texelChart[i];
-        state.texelArea[i] =
-            static_cast<float>(area[c] * static_cast<double>(u.points.of(i).size()) / points[c]);
-    }
-}
-
 EnergyReport energyBalance(const BakeState& state) {
     glm::dvec3 emitted(0), absorbed(0), reflected(0);
     for (const Light& light : state.sources.lights)
         emitted += glm::dvec3(light.radiance) * static_cast<double>(kPi * light.area);
     for (std::size_t i = 0; i < state.irradiance.size(); ++i) {
-        const glm::dvec3 flux = glm::dvec3(state.irradiance[i]) * static_cast<double>(state.texelArea[i]);
+        const glm::dvec3 flux = glm::dvec3(state.irradiance[i]) * static_cast<double>(state.unwrap.texelArea(i));
         absorbed += flux * glm::dvec3(state.absorptance[i]);
         reflected += flux * glm::dvec3(state.reflectance[i]);
     }
@@ -135,7 +118,6 @@ BakeState makeState(const Scene& scene, const BakeParams& params, Progress& prog
     state.faces = makeBundleFaces(scene, state.unwrap, state.frame);
     state.sources = findLightSources(scene, state.unwrap);
     findReflectances(state);
-    findTexelAreas(state);
     state.directIrradiance = timed(state.report, progress, "direct light", [&] {
         return directIrradiance(scene, state.rays, state.unwrap, state.sources,
                                 {params.directSamples, params.seed}, progress);

@@ -65,7 +65,6 @@ struct BakeState {
     FieldFrame frame;
     BundleFaces faces;
     LightSources sources;
-    std::vector<float> texelArea;          ///< m²
     std::vector<Vec3> reflectance;         ///< diffuse
     std::vector<Vec3> absorptance;         ///< 1 - diffuse - mirror reflectance
     std::vector<Vec3> directIrradiance;    ///< W·m⁻²

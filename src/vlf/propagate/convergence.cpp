@@ -8,24 +8,23 @@ namespace vlf {
 namespace {
 constexpr int kMaxSweeps = 300;
 constexpr std::size_t kWindow = 3;  // bounces looked at together
-constexpr double kMinRate = 0.3, kMaxRate = 0.95;
-constexpr double kNoise = 1e-3;  // flux growth below this says little about its ratio
+constexpr double kMinRate = 0.3, kMaxRate = 0.8;
+constexpr double kWorthExtrapolating = 0.01;  // flux growth; below, noise would be amplified
 }
 
 Convergence::Convergence(const BakeState& state) : chartArea_(state.unwrap.charts.size(), 0) {
     for (std::size_t i = 0; i < state.unwrap.texels.size(); ++i) {
-        chartArea_[state.unwrap.texelChart[i]] += state.texelArea[i];
-        totalArea_ += state.texelArea[i];
+        chartArea_[state.unwrap.texelChart[i]] += state.unwrap.texelArea(i);
+        totalArea_ += state.unwrap.texelArea(i);
     }
     previous_ = chartIrradiance(state);
-    lastIrradiance_ = state.irradiance;
 }
 
 std::vector<double> Convergence::chartIrradiance(const BakeState& state) const {
     std::vector<double> sum(chartArea_.size(), 0);
     for (std::size_t i = 0; i < state.unwrap.texels.size(); ++i)
         sum[state.unwrap.texelChart[i]] +=
-            static_cast<double>(state.texelArea[i]) * luminance(state.irradiance[i]);
+            static_cast<double>(state.unwrap.texelArea(i)) * luminance(state.irradiance[i]);
     return sum;
 }
 
@@ -39,30 +38,31 @@ void Convergence::update(BakeState& state) {
     }
     growth_.push_back({growth / totalArea_, flux > 0 ? fluxGrowth / flux : 0});
     ++bounces_;
-    if (growth_.size() == kWindow) judge(state);
+    if (growth_.size() == kWindow) judge(state, now);
     previous_ = chartIrradiance(state);
-    lastIrradiance_ = state.irradiance;
 }
 
-void Convergence::judge(BakeState& state) {
-    if (std::abs(growth_[1].flux) > kNoise)
-        rate_ = std::clamp(growth_[2].flux / growth_[1].flux, kMinRate, kMaxRate);
+void Convergence::judge(BakeState& state, const std::vector<double>& now) {
+    const bool worthwhile = std::abs(growth_[2].flux) > kWorthExtrapolating;
+    if (worthwhile) rate_ = std::clamp(growth_[2].flux / growth_[1].flux, kMinRate, kMaxRate);
     // The sum of successive differences: the sweeps' noise cancels but for its ends.
     double sum = 0;
     for (const Growth& g : growth_) sum += g.relative;
     residual_ = std::abs(sum) / kWindow * rate_ / (1 - rate_);
-    if (std::abs(growth_[2].flux) > kNoise)
-        extrapolate(state);
+    if (worthwhile)
+        extrapolate(state, now);
     else
         growth_.erase(growth_.begin());
 }
 
-void Convergence::extrapolate(BakeState& state) {
-    const auto gain = static_cast<float>(rate_ / (1 - rate_));
-    for (std::size_t i = 0; i < state.irradiance.size(); ++i)
-        state.irradiance[i] =
-            glm::max(state.directIrradiance[i],
-                     state.irradiance[i] + gain * (state.irradiance[i] - lastIrradiance_[i]));
+void Convergence::extrapolate(BakeState& state, const std::vector<double>& now) {
+    // By chart: the growth of single texels is mostly noise.
+    const double gain = rate_ / (1 - rate_);
+    for (std::size_t i = 0; i < state.irradiance.size(); ++i) {
+        const std::uint32_t c = state.unwrap.texelChart[i];
+        const double scale = now[c] > 0 ? 1 + gain * (now[c] - previous_[c]) / now[c] : 1;
+        state.irradiance[i] *= static_cast<float>(std::max(scale, 0.5));
+    }
     growth_.clear();
 }
 

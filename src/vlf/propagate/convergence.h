@@ -15,8 +15,8 @@ class Convergence {
     explicit Convergence(const BakeState& state);
 
     /// Takes note of one more bounce and, every few, extrapolates the state: the light still to
-    /// come is about the last bounce's growth times r / (1 - r), r being the growths' ratio
-    /// (Lyusternik's acceleration of a Jacobi iteration).
+    /// come to a chart is about its last growth times r / (1 - r), r being the ratio of successive
+    /// growths of the flux (Lyusternik's acceleration of a Jacobi iteration).
     void update(BakeState& state);
 
     /// Whether `maxBounces` are done or, if it is 0, the light still to come is estimated below
@@ -28,8 +28,8 @@ class Convergence {
 
   private:
     std::vector<double> chartIrradiance(const BakeState& state) const;
-    void judge(BakeState& state);
-    void extrapolate(BakeState& state);
+    void judge(BakeState& state, const std::vector<double>& now);
+    void extrapolate(BakeState& state, const std::vector<double>& now);
 
     /// Of one bounce: mean relative growth of the charts, and relative growth of the whole flux.
     struct Growth {
@@ -39,7 +39,6 @@ class Convergence {
     std::vector<double> chartArea_, previous_;
     double totalArea_ = 0;
     std::vector<Growth> growth_;  ///< of the last bounces, none before an extrapolation
-    std::vector<Vec3> lastIrradiance_;
     int bounces_ = 0;
     double residual_ = 1;
     double rate_ = 0.7;  ///< of one bounce's growth to that before

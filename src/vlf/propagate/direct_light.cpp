@@ -6,6 +6,7 @@
 #include "vlf/math/sampling.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace vlf {
@@ -14,6 +15,7 @@ namespace {
 
 constexpr int kMaxAnalyticTriangles = 8;
 constexpr int kFormFactorPoints = 4;
+constexpr std::array<std::size_t, kTexelGrid> kLatinSquare{1, 3, 0, 2};  // column taken in each row
 constexpr float kGrazing = 1e-5f;  // cosine: a point in a light's own plane gets nothing from it
 constexpr std::size_t kTexelsPerBlock = 64;
 
@@ -245,7 +247,10 @@ class DirectGatherer {
         const std::size_t count = std::min<std::size_t>(kFormFactorPoints, r.points.size());
         float sum = 0;
         for (std::size_t i = 0; i < count; ++i) {
-            const Point p = surfacePoint(r, (2 * i + 1) * r.points.size() / (2 * count));
+            const std::size_t k = r.points.size() == kLatinSquare.size() * kLatinSquare.size()
+                                      ? kLatinSquare.size() * i + kLatinSquare[i]
+                                      : (2 * i + 1) * r.points.size() / (2 * count);
+            const Point p = surfacePoint(r, k);
             for (const std::uint32_t t : light.triangles) {
                 std::array<Vec3, 3> corner;
                 for (int c = 0; c < 3; ++c)

@@ -148,7 +148,8 @@ MirrorCell MirrorCellFinder::cellAt(const MirrorChart& chart, const ParallelSubf
                                     const Vec3& toEye, int x, int y,
                                     const Candidate& candidate) const {
     const MirrorChart::Side& side = chart.sides[candidate.side];
-    MirrorCell cell{x, y, side.triangle, side.front, candidate.barycentric, Vec3(0)};
+    MirrorCell cell{x, y, side.triangle, side.front, candidate.barycentric, Vec3(0),
+                    candidate.outside > 0};
     cell.position = positionAt(scene_, side.triangle, candidate.barycentric);
     if (!chart.planar) return cell;
     // On to where the cell's ray meets the plane.

@@ -31,6 +31,7 @@ struct MirrorCell {
     bool front = true;
     Vec2 barycentric{0};  ///< within the triangle
     Vec3 position{0};     ///< beyond it for guard cells of planar charts
+    bool guard = false;   ///< the ray misses the chart
 };
 
 /// Cells [x0, x1) x [y0, y1); empty if x0 >= x1.

@@ -10,6 +10,7 @@ namespace {
 
 constexpr float kMinThroughput = 1e-4f;
 constexpr float kMinCosine = 0.05f;
+constexpr float kInset = 1e-3f;  // of the way to the middle of a triangle
 
 /// About the geometric normal `side` where the shading normal would send the ray into the surface.
 Vec3 reflectAbove(const Vec3& direction, const Vec3& normal, const Vec3& side) {
@@ -59,19 +60,19 @@ struct MirrorViewTracer::Arrival {
     Vec2 uv;
 };
 
-void MirrorViewTracer::start(std::span<const MirrorCell> cells, const Vec3& toEye, bool planar) {
-    views_.assign(cells.size(), {});
+void MirrorViewTracer::start(const Vec3& toEye, bool planar) {
+    views_.assign(cells_.size(), {});
     paths_.clear();
     rayQueue_.clear();
-    for (std::uint32_t i = 0; i < cells.size(); ++i) {
-        const MirrorCell& c = cells[i];
+    for (std::uint32_t i = 0; i < cells_.size(); ++i) {
+        const MirrorCell& c = cells_[i];
         const Vec3 side = sideNormal(scene_, c.triangle, c.front);
         const Vec3 normal = mirrorNormal(scene_, c.triangle, c.barycentric, side, planar);
         const Vec2 uv = uvAt(scene_, c.triangle, c.barycentric);
         const Vec3 mirror = mirrorReflectance(scene_, scene_.material(c.triangle), uv);
         rayQueue_.push_back(
             {c.position + rays_.epsilon() * side, reflectAbove(-toEye, normal, side)});
-        paths_.push_back({i, mirror, 0, true});
+        paths_.push_back({i, mirror, 0, true, true});
     }
 }
 
@@ -88,6 +89,7 @@ void MirrorViewTracer::reflect(Path path, const Vec3& direction, const Arrival& 
     if (maxComponent(path.throughput) < kMinThroughput) return;
     path.unfolding = path.unfolding && at.chart.planar &&
                      maxComponent(at.material.mirror) > maxComponent(at.material.diffuse);
+    path.first = false;
     const Vec3 side = sideNormal(scene_, at.hit.triangle, at.front);
     const Vec3 normal =
         mirrorNormal(scene_, at.hit.triangle, at.hit.barycentric, side, at.chart.planar);
@@ -96,26 +98,39 @@ void MirrorViewTracer::reflect(Path path, const Vec3& direction, const Arrival& 
     nextPaths_.push_back(path);
 }
 
+/// Guard cells try again from the chart's point next to them.
+void MirrorViewTracer::enterSolid(Path path, const Ray& ray) {
+    const MirrorCell& cell = cells_[path.cell];
+    if (!path.first || !cell.guard) return;
+    const Vec2 inset = cell.barycentric + kInset * (Vec2(1.0f / 3) - cell.barycentric);
+    const Vec3 side = sideNormal(scene_, cell.triangle, cell.front);
+    path.first = false;
+    nextRays_.push_back(
+        {positionAt(scene_, cell.triangle, inset) + rays_.epsilon() * side, ray.direction});
+    nextPaths_.push_back(path);
+}
+
 void MirrorViewTracer::arrive(const Path& path, const Ray& ray, const Hit& hit) {
     MirrorView& view = views_[path.cell];
-    if (path.unfolding) view.distance = hit ? path.length + hit.t : longest_;
-    if (!hit) return;
+    if (!hit) {
+        if (path.unfolding) view.distance = longest_;
+        return;
+    }
     const bool front = glm::dot(areaVector(scene_, hit.triangle), ray.direction) < 0;
     const TriangleCharts& sides = field_.triangleCharts[hit.triangle];
     const std::uint32_t chart = front ? sides.front : sides.back;
-    const Vec3 position = positionAt(scene_, hit.triangle, hit.barycentric);
+    if (chart == kNoChart) return enterSolid(path, ray);
+    const Arrival at{hit,
+                     field_.charts[chart],
+                     scene_.material(hit.triangle),
+                     front,
+                     positionAt(scene_, hit.triangle, hit.barycentric),
+                     uvAt(scene_, hit.triangle, hit.barycentric)};
     Path next = path;
     next.length += hit.t;
-    if (chart == kNoChart) {
-        nextRays_.push_back({position + rays_.epsilon() * ray.direction, ray.direction});
-        nextPaths_.push_back(next);
-        return;
-    }
-    const Material& material = scene_.material(hit.triangle);
-    const Vec2 uv = uvAt(scene_, hit.triangle, hit.barycentric);
-    const Arrival at{hit, field_.charts[chart], material, front, position, uv};
+    if (path.unfolding) view.distance = next.length;
     view.radiance += path.throughput * radianceSeen(at);
-    if (material.isMirror()) reflect(next, ray.direction, at);
+    if (at.material.isMirror()) reflect(next, ray.direction, at);
 }
 
 void MirrorViewTracer::advance() {
@@ -128,9 +143,10 @@ void MirrorViewTracer::advance() {
     std::swap(rayQueue_, nextRays_);
 }
 
-void MirrorViewTracer::formImages(std::span<const MirrorCell> cells, const Vec3& toEye) {
-    for (std::size_t i = 0; i < cells.size(); ++i) {
-        const MirrorCell& c = cells[i];
+void MirrorViewTracer::formImages(const Vec3& toEye) {
+    for (std::size_t i = 0; i < cells_.size(); ++i) {
+        const MirrorCell& c = cells_[i];
+        if (views_[i].distance <= 0) continue;
         const Vec3 side = sideNormal(scene_, c.triangle, c.front);
         const Vec3 normal = mirrorNormal(scene_, c.triangle, c.barycentric, side, false);
         const float cosine = std::max(glm::dot(normal, toEye), kMinCosine);
@@ -141,9 +157,10 @@ void MirrorViewTracer::formImages(std::span<const MirrorCell> cells, const Vec3&
 
 const std::vector<MirrorView>& MirrorViewTracer::trace(std::span<const MirrorCell> cells,
                                                        const Vec3& toEye, bool planar) {
-    start(cells, toEye, planar);
+    cells_ = cells;
+    start(toEye, planar);
     for (int step = 0; step <= kMaxReflections && !rayQueue_.empty(); ++step) advance();
-    if (!planar) formImages(cells, toEye);
+    if (!planar) formImages(toEye);
     for (MirrorView& v : views_) v.distance = std::min(v.distance, longest_);
     return views_;
 }

@@ -14,7 +14,8 @@ namespace vlf {
 
 struct MirrorView {
     Vec3 radiance{0};    ///< leaving the mirror, W·m⁻²·sr⁻¹
-    float distance = 0;  ///< from the mirror to the image of what is seen, metres
+    float distance = 0;  ///< from the mirror to the image of what is seen, metres; 0: nothing, the
+                         ///< cell lies within a solid
 };
 
 /// Distance behind a mirror of the image of a point at distance d > 0 before it: the mean of the
@@ -24,7 +25,8 @@ struct MirrorView {
 float imageDistance(float d, float curvature, float cosine, float longest);
 
 /// Follows rays from mirror charts. Light seen is emission (of the emitting side) and ρE/π of the
-/// field's atlas; rays go on through the inside of solids, as a guard cell may start in one.
+/// field's atlas. A guard cell within a solid, as under the mirror's frame, shows what the chart's
+/// point next to it does.
 class MirrorViewTracer {
   public:
     /// Distances are limited to `longest`, which is also that of rays that leave the scene.
@@ -43,20 +45,23 @@ class MirrorViewTracer {
         Vec3 throughput;
         float length;    ///< metres so far
         bool unfolding;  ///< whether what comes next decides the distance
+        bool first;      ///< from the cell itself
     };
     struct Arrival;
 
-    void start(std::span<const MirrorCell> cells, const Vec3& toEye, bool planar);
+    void start(const Vec3& toEye, bool planar);
+    void enterSolid(Path path, const Ray& ray);
     void advance();
     void arrive(const Path& path, const Ray& ray, const Hit& hit);
     Vec3 radianceSeen(const Arrival& at) const;
     void reflect(Path path, const Vec3& direction, const Arrival& at);
-    void formImages(std::span<const MirrorCell> cells, const Vec3& toEye);
+    void formImages(const Vec3& toEye);
 
     const Scene& scene_;
     const RayScene& rays_;
     const LightField& field_;
     float longest_;
+    std::span<const MirrorCell> cells_;
     std::vector<MirrorView> views_;
     std::vector<Path> paths_, nextPaths_;
     std::vector<Ray> rayQueue_, nextRays_;

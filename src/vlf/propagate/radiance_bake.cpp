@@ -81,6 +81,7 @@ std::uint64_t elementCount(const RadianceField& radiance) {
 }
 
 std::uint16_t packDistance(float distance, float longest) {
+    if (distance <= 0) return 0;
     return static_cast<std::uint16_t>(
         std::clamp(std::round(distance / longest * 65535), 1.0f, 65535.0f));
 }

@@ -41,10 +41,9 @@ void checkSize(const Scene& scene, float texelSize) {
                          ", more than the 2^28 an atlas can hold: choose larger ones");
 }
 
-/// Charts of the groups' open sides. groupOfChart says whose they are.
+/// Charts of the groups' open sides.
 void layOutCharts(const Scene& scene, const std::vector<ChartGroup>& groups,
-                  const std::vector<OpenSides>& sides, Unwrap& result,
-                  std::vector<std::uint32_t>& groupOfChart) {
+                  const std::vector<OpenSides>& sides, Unwrap& result) {
     std::vector<Chart> layouts(groups.size());
     parallelFor(groups.size(), 16, [&](std::size_t g) {
         layouts[g] = layOutChart(scene, groups[g], result.texelSize);
@@ -55,37 +54,53 @@ void layOutCharts(const Scene& scene, const std::vector<ChartGroup>& groups,
         if (sides[g].front) {
             charts.front = static_cast<std::uint32_t>(result.charts.size());
             result.charts.push_back(layouts[g]);
-            groupOfChart.push_back(g);
         }
         if (sides[g].back) {
             charts.back = static_cast<std::uint32_t>(result.charts.size());
             result.charts.push_back(backOf(layouts[g]));
-            groupOfChart.push_back(g);
         }
         for (const std::uint32_t t : groups[g].triangles) result.triangleCharts[t] = charts;
     }
 }
 
+/// Adds a chart's texels that have points.
+void appendTexels(std::uint32_t c, const TexelPoints& points, Unwrap& result) {
+    const Chart& chart = result.charts[c];
+    auto& all = result.points.points;
+    for (std::uint32_t i = 0; i + 1 < points.first.size(); ++i) {
+        const auto texelPoints = points.of(i);
+        if (texelPoints.empty()) continue;
+        const std::uint32_t x = chart.x + i % chart.width, y = chart.y + i / chart.width;
+        result.texels.push_back(y * result.atlasWidth + x);
+        result.texelChart.push_back(c);
+        all.insert(all.end(), texelPoints.begin(), texelPoints.end());
+        result.points.first.push_back(static_cast<std::uint32_t>(all.size()));
+    }
+}
+
+std::vector<std::vector<std::uint32_t>> trianglesOfCharts(const Unwrap& unwrap) {
+    std::vector<std::vector<std::uint32_t>> triangles(unwrap.charts.size());
+    for (std::uint32_t t = 0; t < unwrap.triangleCharts.size(); ++t)
+        for (const std::uint32_t c : {unwrap.triangleCharts[t].front, unwrap.triangleCharts[t].back})
+            if (c != kNoChart) triangles[c].push_back(t);
+    return triangles;
+}
+
 /// Lists the covered texels of all charts with their points.
-void coverTexels(const Scene& scene, const std::vector<ChartGroup>& groups,
-                 const std::vector<std::uint32_t>& groupOfChart, Unwrap& result) {
+void coverTexels(const Scene& scene, Unwrap& result) {
+    const auto triangles = trianglesOfCharts(result);
     std::vector<TexelPoints> points(result.charts.size());
     parallelFor(points.size(), 4, [&](std::size_t c) {
-        points[c] = findTexelPoints(scene, result.charts[c], groups[groupOfChart[c]].triangles);
+        points[c] = findTexelPoints(scene, result.charts[c], triangles[c]);
     });
+    result.pointArea.resize(points.size());
     result.points.first.push_back(0);
     for (std::uint32_t c = 0; c < points.size(); ++c) {
-        const Chart& chart = result.charts[c];
-        for (std::uint32_t i = 0; i + 1 < points[c].first.size(); ++i) {
-            const auto texelPoints = points[c].of(i);
-            if (texelPoints.empty()) continue;
-            const std::uint32_t x = chart.x + i % chart.width, y = chart.y + i / chart.width;
-            result.texels.push_back(y * result.atlasWidth + x);
-            result.texelChart.push_back(c);
-            auto& all = result.points.points;
-            all.insert(all.end(), texelPoints.begin(), texelPoints.end());
-            result.points.first.push_back(static_cast<std::uint32_t>(all.size()));
-        }
+        double chartArea = 0;
+        for (const std::uint32_t t : triangles[c]) chartArea += area(scene, t);
+        result.pointArea[c] = static_cast<float>(
+            chartArea / static_cast<double>(std::max<std::size_t>(1, points[c].points.size())));
+        appendTexels(c, points[c], result);
     }
 }
 
@@ -108,6 +123,12 @@ void findProxies(Unwrap& result) {
             }
 }
 
+void findTexels(const Scene& scene, const RayScene& rays, Unwrap& result) {
+    coverTexels(scene, result);
+    dropBuriedPoints(scene, rays, result);
+    findProxies(result);
+}
+
 }  // namespace
 
 float texelSizeForBudget(const Scene& scene, double budget) {
@@ -122,15 +143,24 @@ Unwrap unwrap(const Scene& scene, const RayScene& rays, const UnwrapParams& para
     const std::vector<ChartGroup> groups = groupTriangles(scene, result.texelSize);
     const std::vector<std::uint32_t> groupOf = groupOfTriangles(groups, scene.triangles.size());
     const std::vector<OpenSides> sides = findOpenSides(scene, rays, groups, groupOf, params.seed);
-    std::vector<std::uint32_t> groupOfChart;
-    layOutCharts(scene, groups, sides, result, groupOfChart);
+    layOutCharts(scene, groups, sides, result);
     const AtlasSize size = packCharts(result.charts);
     result.atlasWidth = size.width;
     result.atlasHeight = size.height;
-    coverTexels(scene, groups, groupOfChart, result);
-    dropBuriedPoints(scene, rays, result);
-    findProxies(result);
+    findTexels(scene, rays, result);
     result.seams = findSeams(scene, rays, result);
+    return result;
+}
+
+Unwrap restoreUnwrap(const Scene& scene, const RayScene& rays, const std::vector<Chart>& charts,
+                     const std::vector<TriangleCharts>& triangleCharts,
+                     const AtlasSize& atlas) {
+    Unwrap result;
+    result.charts = charts;
+    result.triangleCharts = triangleCharts;
+    result.atlasWidth = atlas.width;
+    result.atlasHeight = atlas.height;
+    findTexels(scene, rays, result);
     return result;
 }
 

@@ -5,6 +5,7 @@
 #include "vlf/field/chart.h"
 #include "vlf/scene/scene.h"
 #include "vlf/trace/ray_scene.h"
+#include "vlf/unwrap/pack_atlas.h"
 #include "vlf/unwrap/texel_points.h"
 
 #include <cstdint>
@@ -31,6 +32,7 @@ struct Unwrap {
     std::vector<std::uint32_t> texels;
     std::vector<std::uint32_t> texelChart;
     TexelPoints points;
+    std::vector<float> pointArea;  ///< per chart: surface area that a point stands for, m²
 
     /// Texels within a chart that the points miss but a ray may still hit (slivers of the
     /// surface), and the covered neighbour that stands for them. Atlas indices.
@@ -38,6 +40,9 @@ struct Unwrap {
 
     std::vector<SeamLink> seams;
 
+    float texelArea(std::size_t i) const {
+        return pointArea[texelChart[i]] * static_cast<float>(points.of(i).size());
+    }
     std::size_t atlasSize() const { return static_cast<std::size_t>(atlasWidth) * atlasHeight; }
 };
 
@@ -52,5 +57,9 @@ float texelSizeForBudget(const Scene& scene, double budget);
 
 /// Throws InputError if the scene would need more than 2^28 texels.
 Unwrap unwrap(const Scene& scene, const RayScene& rays, const UnwrapParams& params);
+
+/// The texels of a finished field, from its charts: for measuring it. Seams are left out.
+Unwrap restoreUnwrap(const Scene& scene, const RayScene& rays, const std::vector<Chart>& charts,
+                     const std::vector<TriangleCharts>& triangleCharts, const AtlasSize& atlas);
 
 }  // namespace vlf

@@ -181,6 +181,18 @@ TEST(Exr, RejectsASizeThatTheFileCannotHold) {
     EXPECT_NE(messageOf(folder.path("b.exr")), "");
 }
 
+TEST(Exr, RejectsAnAttributeLargerThanTheFile) {
+    const test::TemporaryFolder folder;
+    writeExr(folder.path("a.exr"), Image(4, 4), {{"note", "text"}});
+    std::vector<std::uint8_t> bytes = readFile(folder.path("a.exr"));
+    const std::string name = "note";
+    const auto note = std::search(bytes.begin(), bytes.end(), name.begin(), name.end());
+    ASSERT_NE(note, bytes.end());
+    const std::int32_t size = 0x7f000000;
+    std::memcpy(&*note + name.size() + 1 + sizeof("string"), &size, sizeof size);
+    EXPECT_THROW(decodeImage(bytes, "large attribute"), InputError);
+}
+
 TEST(Exr, RefusesToWriteAnEmptyImage) {
     const test::TemporaryFolder folder;
     EXPECT_THROW(writeExr(folder.path("a.exr"), Image()), InputError);

@@ -90,9 +90,9 @@ TEST_F(DamagedFieldFile, WithAnyByteOfAnyChunkForgedIsRefusedOrSound) {
     for (const Chunk& chunk : source.chunks()) {
         ASSERT_LE(chunk.blocks.size(), 1u);
         const std::size_t size = source.readBytes(chunk.name).size();
-        const std::size_t step = size > 300 ? size / 150 : 1;
+        const std::size_t step = size > 150 ? size / 75 : 1;
         for (std::size_t i = 0; i < size; i += step)
-            for (const std::uint8_t value : {0x00, 0x7f, 0xff}) {
+            for (const std::uint8_t value : {0x00, 0xff}) {
                 rewrite(source, chunk.name, path, [&](auto& content) { content[i] = value; });
                 ++(isRefused() ? refused : accepted);
             }

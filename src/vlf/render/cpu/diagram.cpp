@@ -68,9 +68,9 @@ Ball ballBefore(const Camera& camera, int width, int height) {
     return {camera.eye + glm::normalize(camera.look - camera.eye), sine};
 }
 
-/// White at the mean solid angle, blue below and red above, full at a fifth off the mean.
+/// White at the mean solid angle, blue below and red above, full at a tenth off the mean.
 Vec3 weightColor(float relativeToMean) {
-    const float t = std::clamp((relativeToMean - 1) / 0.2f, -1.0f, 1.0f);
+    const float t = std::clamp((relativeToMean - 1) / 0.1f, -1.0f, 1.0f);
     const Vec3 end = t < 0 ? Vec3(0.03f, 0.14f, 0.6f) : Vec3(0.6f, 0.05f, 0.03f);
     return glm::mix(Vec3(0.85f), end, std::abs(t));
 }

@@ -21,7 +21,7 @@ enum class DiagramKind {
     chart,       ///< the texels of one chart, coloured by irradiance from black to pale yellow
 };
 
-/// What is not given is chosen: a direction obliquely downwards, the tile in the middle, the chart
+/// What is not given is chosen: a direction that shows well, the tile in the middle, the chart
 /// in the middle of the picture.
 struct DiagramParams {
     DiagramKind kind = DiagramKind::directions;

@@ -2,15 +2,16 @@
 
 #include "vlf/math/random.h"
 
-#include <algorithm>
 #include <bit>
 #include <unordered_map>
+#include <utility>
 
 namespace vlf {
 
 namespace {
 
-constexpr float kCreaseCosine = 0.866f;
+/// Shading normals that differ by more than about 10 degrees make a crease.
+constexpr float kSmoothCosine = 0.985f;
 
 struct PositionHash {
     std::size_t operator()(const Vec3& p) const {
@@ -33,18 +34,23 @@ std::vector<std::uint32_t> weld(const std::vector<Vec3>& positions) {
 
 struct EdgeBuilder {
     MeshEdge edge;
+    Vec3 fromShading{0}, toShading{0};  ///< shading normals of the first triangle
     std::uint32_t material = 0;
     int triangles = 0;
 
-    void add(const Vec3& normal, std::uint32_t triangleMaterial) {
+    /// A triangle at the edge, and its vertices at the edge's two ends.
+    void add(const Scene& scene, std::uint32_t t, std::uint32_t from, std::uint32_t to) {
+        edge.otherNormal = geometricNormal(scene, t);
         if (++triangles == 1) {
-            material = triangleMaterial;
-            edge.normal = edge.otherNormal = normal;
+            edge.normal = edge.otherNormal;
             edge.crease = true;
+            material = scene.triangles[t].material;
+            fromShading = scene.normals[from];
+            toShading = scene.normals[to];
         } else {
-            edge.otherNormal = normal;
-            edge.crease = triangles > 2 || triangleMaterial != material ||
-                          glm::dot(edge.normal, normal) < kCreaseCosine;
+            edge.crease = triangles > 2 || scene.triangles[t].material != material ||
+                          glm::dot(fromShading, scene.normals[from]) < kSmoothCosine ||
+                          glm::dot(toShading, scene.normals[to]) < kSmoothCosine;
         }
     }
 };
@@ -56,15 +62,14 @@ std::vector<MeshEdge> meshEdges(const Scene& scene) {
     std::unordered_map<std::uint64_t, std::size_t> known;
     std::vector<EdgeBuilder> builders;
     for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) {
-        const Vec3 normal = geometricNormal(scene, t);
         for (int corner = 0; corner < 3; ++corner) {
-            const std::uint32_t a = scene.triangles[t].vertex[corner];
-            const std::uint32_t b = scene.triangles[t].vertex[(corner + 1) % 3];
-            const auto [low, high] = std::minmax({place[a], place[b]});
+            std::uint32_t from = scene.triangles[t].vertex[corner];
+            std::uint32_t to = scene.triangles[t].vertex[(corner + 1) % 3];
+            if (place[from] > place[to]) std::swap(from, to);
             const auto [at, added] =
-                known.try_emplace(std::uint64_t{low} << 32 | high, builders.size());
-            if (added) builders.push_back({{scene.positions[a], scene.positions[b]}});
-            builders[at->second].add(normal, scene.triangles[t].material);
+                known.try_emplace(std::uint64_t{place[from]} << 32 | place[to], builders.size());
+            if (added) builders.push_back({{scene.positions[from], scene.positions[to]}});
+            builders[at->second].add(scene, t, from, to);
         }
     }
     std::vector<MeshEdge> edges;

@@ -11,8 +11,8 @@ namespace vlf {
 struct MeshEdge {
     Vec3 from{0}, to{0};
     Vec3 normal{0}, otherNormal{0};  ///< unit, of the first two triangles at the edge
-    bool crease = false;  ///< a border, a change of material, a bend beyond 30 degrees, or where
-                          ///< more than two triangles meet
+    bool crease = false;  ///< a border, a change of material, a bend that is not shaded as smooth,
+                          ///< or where more than two triangles meet
 
     /// Whether the surface turns away from the eye here.
     bool isContour(const Vec3& eye) const {

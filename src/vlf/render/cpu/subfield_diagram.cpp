@@ -21,25 +21,43 @@ namespace {
 constexpr Vec3 kGridInk{0.05f, 0.2f, 0.5f}, kTileInk{0.75f, 0.12f, 0.01f},
     kRayInk{0.1f, 0.3f, 0.7f};
 
+constexpr int kUsualTile = 16;  ///< cells, of fields whose radiance is not stored by tiles
+
 constexpr int kMaxLayers = 32;  ///< surfaces behind one another that are looked through
 constexpr float kSeenInBeam = 0.9f, kSeenOfChart = 0.4f, kSeenElse = 0.04f;  ///< opacities
 
-/// Looks along the camera's line of sight, from a little higher, at all of the grid around the
-/// field's bounding sphere.
-Camera overviewOf(const Camera& camera, const FieldFrame& frame, int width, int height) {
-    const Vec3 forward = glm::normalize(camera.look - camera.eye);
-    const Vec3 right = glm::normalize(glm::cross(forward, glm::normalize(camera.up)));
-    const Vec3 up = glm::cross(right, forward);
-    Camera overview = camera;
-    overview.up = up;
-    overview.verticalFov = 35;
+/// The axes of a camera's view.
+struct ViewAxes {
+    Vec3 right, up, forward;
+
+    explicit ViewAxes(const Camera& camera) {
+        forward = glm::normalize(camera.look - camera.eye);
+        right = glm::normalize(glm::cross(forward, glm::normalize(camera.up)));
+        up = glm::cross(right, forward);
+    }
+};
+
+/// Looks along the camera's line of sight, from a little higher, at all of the field's bounding
+/// sphere and the grid before it.
+Camera overviewOf(const Camera& camera, const FieldFrame& frame, const Vec3& direction, int width,
+                  int height) {
+    constexpr float kFov = 35;  ///< degrees
+    const ViewAxes view(camera);
     const float aspect = std::min(1.0f, static_cast<float>(width) / height);
-    const float halfAngle = std::atan(std::tan(17.5f * (kPi / 180)) * aspect);
-    // A corner of the grid lies √3 radii from the centre.
-    const float distance = 1.6f * frame.radius / std::sin(halfAngle);
-    overview.look = frame.centre;
-    overview.eye = frame.centre - distance * glm::normalize(forward - 0.45f * up);
+    const float halfAngle = std::atan(std::tan(0.5f * kFov * (kPi / 180)) * aspect);
+    const float distance = 1.45f * frame.radius / std::sin(halfAngle);
+    Camera overview = camera;
+    overview.look = frame.centre - 0.5f * frame.radius * direction;
+    overview.eye = overview.look - distance * glm::normalize(view.forward - 0.3f * view.up);
+    overview.up = view.up;
+    overview.verticalFov = kFov;
     return overview;
+}
+
+/// From the left, above and behind the room towards the camera: shows the grid at a good angle.
+Vec3 usualDirection(const Camera& camera) {
+    const ViewAxes view(camera);
+    return glm::normalize(0.75f * view.right - 0.45f * view.up - 0.5f * view.forward);
 }
 
 /// The part of the field that is drawn.
@@ -68,9 +86,9 @@ struct Selection {
     Ray ray(const Vec2& cell) const { return {at(cell), subfield.direction}; }
 };
 
-std::uint32_t chooseDirection(const DirectionSet& set, const DiagramParams& params) {
-    const std::uint32_t direction =
-        params.direction.value_or(set.nearest(glm::normalize(Vec3(-0.45f, -1.0f, -0.3f))));
+std::uint32_t chooseDirection(const DirectionSet& set, const DiagramParams& params,
+                              const Camera& camera) {
+    const std::uint32_t direction = params.direction.value_or(set.nearest(usualDirection(camera)));
     if (direction < static_cast<std::uint32_t>(set.directionCount())) return direction;
     throw InputError("no direction " + std::to_string(direction) + ": the light field has " +
                      std::to_string(set.directionCount()));
@@ -83,14 +101,14 @@ int chooseTile(const std::optional<std::uint32_t>& wanted, int tiles) {
                      " along each side");
 }
 
-Selection select(const LightField& field, const DiagramParams& params) {
+Selection select(const LightField& field, const DiagramParams& params, const Camera& camera) {
     const DirectionSet set(field.record.directions);
-    if (field.record.cells < 1 || field.record.tileSize < 1)
-        throw InputError("the light field does not say how many cells and tiles it was made with");
+    if (field.record.cells < 1)
+        throw InputError("the light field does not say how many cells it was made with");
     Selection selection;
-    selection.subfield =
-        makeSubfield(field.frame, set.direction(chooseDirection(set, params)), field.record.cells);
-    selection.tileSize = field.record.tileSize;
+    selection.subfield = makeSubfield(
+        field.frame, set.direction(chooseDirection(set, params, camera)), field.record.cells);
+    selection.tileSize = field.record.tileSize > 0 ? field.record.tileSize : kUsualTile;
     selection.tileX = chooseTile(params.tileX, selection.tiles());
     selection.tileY = chooseTile(params.tileY, selection.tiles());
     return selection;
@@ -213,7 +231,7 @@ void drawRoom(const Drawing& drawing, const Scene& scene) {
     drawing.lay(sheet, kInk);
 }
 
-/// The bounding sphere's outline, seen along the direction, at the three depths of its slab.
+/// The bounding sphere's outline, seen along the direction.
 void drawSphere(const Drawing& drawing, const FieldFrame& frame, const Vec3& direction) {
     constexpr int kSides = 96;
     const Frame axes = frameFromNormal(direction);
@@ -273,8 +291,9 @@ void drawGrid(const Drawing& drawing, const Selection& s) {
 Image drawSubfieldDiagram(const Scene& scene, const RayScene& rays, const LightField& field,
                           const Camera& camera, int width, int height, int antialias,
                           const DiagramParams& params, Progress& progress, std::uint64_t& traced) {
-    const Selection selection = select(field, params);
-    const Camera overview = overviewOf(camera, field.frame, width, height);
+    const Selection selection = select(field, params, camera);
+    const Camera overview =
+        overviewOf(camera, field.frame, selection.subfield.direction, width, height);
     const Projection projection(overview, width, height);
     const bool oneTile = params.kind == DiagramKind::tile;
     Image image(width, height, kPaper);

@@ -16,7 +16,7 @@ constexpr Vec3 kNormalInk{0.8f, 0.18f, 0.02f};
 
 constexpr float kStrokeLength = 2;      ///< pixels between tests of visibility
 constexpr float kFullStrength = 14;     ///< pixels: shorter edges of triangles are paler
-constexpr float kFarStrength = 0.35f;   ///< of what lies at the far end of the scene
+constexpr float kFarStrength = 0.4f;    ///< of what lies at the far end of the scene
 constexpr float kSurfaceSlack = 5e-4f;  ///< part of the way to the eye in which nothing hides
 
 enum Sheet { hidden, triangleEdges, creases, normalLines, kSheets };
@@ -28,9 +28,9 @@ struct Pen {
 };
 
 constexpr std::array<Pen, kSheets> kPens{{
-    {1.0f, 0.14f, kInk},
-    {0.8f, 0.45f, kInk},
-    {1.3f, 1.0f, kInk},
+    {1.0f, 0.16f, kInk},
+    {0.9f, 0.45f, kInk},
+    {1.5f, 1.0f, kInk},
     {1.0f, 0.9f, kNormalInk},
 }};
 
@@ -96,8 +96,8 @@ class StrokeMaker {
     }
 
     float depthCue(float depth) const {
-        const float t = (depth - near_) / std::max(far_ - near_, 1e-20f);
-        return glm::mix(1.0f, kFarStrength, std::clamp(t, 0.0f, 1.0f));
+        const float t = std::clamp((depth - near_) / std::max(far_ - near_, 1e-20f), 0.0f, 1.0f);
+        return glm::mix(1.0f, kFarStrength, t * t);
     }
 
     const RayScene& rays_;

@@ -1,0 +1,133 @@
+#include "reference_irradiance.h"
+
+#include "console.h"
+#include "picture_output.h"
+
+#include "vlf/base/error.h"
+#include "vlf/io/field_file.h"
+#include "vlf/math/random.h"
+#include "vlf/render/cpu/irradiance_error.h"
+#include "vlf/scene/import/import.h"
+#include "vlf/scene/scene_hash.h"
+#include "vlf/unwrap/unwrap.h"
+
+#include <algorithm>
+#include <chrono>
+#include <ctime>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace vlf::app {
+
+namespace {
+
+void requireSameScene(const IrradianceOptions& options, const BakedRoom& room) {
+    ImportReport report;
+    const Scene scene = importScene(options.scenes, report);
+    if (sceneHash(scene) != room.field.record.sceneHash)
+        throw InputError(options.field + ": was baked from another scene than " +
+                         options.scenes.front() + ": bake it again, or name the files it is from");
+}
+
+/// Texels spread evenly over the atlas: one at random of each of `count` equal strata.
+std::vector<std::size_t> chooseTexels(std::size_t available, int count, std::uint64_t seed) {
+    const std::size_t n =
+        count > 0 ? std::min<std::size_t>(count, available) : available;
+    std::vector<std::size_t> chosen(n);
+    RandomStream random(seed, 0x7e8e1);
+    for (std::size_t i = 0; i < n; ++i) {
+        const std::size_t begin = i * available / n, end = (i + 1) * available / n;
+        chosen[i] = begin + static_cast<std::size_t>(random.next() * static_cast<float>(end - begin));
+    }
+    return chosen;
+}
+
+/// The chosen texels as the estimator and the report want them.
+struct Selection {
+    std::vector<std::vector<SidePoint>> points;
+    std::vector<Vec3> baked, position, normal;
+    std::vector<float> area;
+};
+
+Selection select(const BakedRoom& room, const Unwrap& unwrap, const std::vector<std::size_t>& texels) {
+    Selection s;
+    for (const std::size_t i : texels) {
+        const std::uint32_t chart = unwrap.texelChart[i];
+        std::vector<SidePoint> points;
+        Vec3 centre(0);
+        for (const SurfacePoint& p : unwrap.points.of(i)) {
+            const bool front = unwrap.triangleCharts[p.triangle].front == chart;
+            points.push_back({p.triangle, p.barycentric, front});
+            centre += positionAt(room.scene, p.triangle, p.barycentric);
+        }
+        s.position.push_back(centre / static_cast<float>(points.size()));
+        s.normal.push_back(unwrap.charts[chart].normal);
+        s.points.push_back(std::move(points));
+        s.baked.push_back(room.field.atlas.irradiance[unwrap.texels[i]]);
+        s.area.push_back(unwrap.texelArea(i));
+    }
+    return s;
+}
+
+nlohmann::ordered_json numbers(const Vec3& v) { return {v.x, v.y, v.z}; }
+
+nlohmann::ordered_json toJson(const IrradianceOptions& options, const IrradianceError& error,
+                              const Selection& s, const std::vector<IrradianceEstimate>& truth,
+                              double cpuSeconds) {
+    nlohmann::ordered_json texels = nlohmann::ordered_json::array();
+    for (std::size_t i = 0; i < truth.size(); ++i)
+        texels.push_back({{"position", numbers(s.position[i])},
+                          {"normal", numbers(s.normal[i])},
+                          {"baked", numbers(s.baked[i])},
+                          {"irradiance", numbers(truth[i].mean)},
+                          {"standardError", numbers(truth[i].standardError)},
+                          {"samples", truth[i].samples},
+                          {"area", s.area[i]}});
+    return {{"scenes", options.scenes},
+            {"field", options.field},
+            {"samplesPerTexel", options.samplesPerTexel},
+            {"relativeRmse", error.relativeRmse},
+            {"measuredRmse", error.measuredRmse},
+            {"truthError", error.truthError},
+            {"bias", error.bias},
+            {"biasError", error.biasError},
+            {"meanRelative", error.meanRelative},
+            {"cpuSeconds", cpuSeconds},
+            {"texels", texels}};
+}
+
+}  // namespace
+
+void runIrradianceReference(const IrradianceOptions& options, const Globals& globals) {
+    requireFolderOf(options.output);
+    const BakedRoom room = readField(options.field);
+    requireSameScene(options, room);
+    const LightField& field = room.field;
+    const RayScene rays(room.scene);
+    const Unwrap unwrap = restoreUnwrap(room.scene, rays, field.charts, field.triangleCharts,
+                                        {field.atlas.width, field.atlas.height});
+    const Selection s = select(
+        room, unwrap, chooseTexels(unwrap.texels.size(), options.texels, globals.seed));
+    const std::vector<TexelArea> areas(s.points.begin(), s.points.end());
+    const auto isOpen = [&](std::uint32_t triangle, bool front) {
+        const TriangleCharts& c = field.triangleCharts[triangle];
+        return (front ? c.front : c.back) != kNoChart;
+    };
+    IrradianceParams params;
+    params.samplesPerTexel = options.samplesPerTexel;
+    params.seed = globals.seed;
+    const std::clock_t start = std::clock();
+    ConsoleProgress progress(globals.quiet);
+    const auto truth = estimateIrradiance(room.scene, rays, areas, isOpen, params, progress);
+    const double cpuSeconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+    const IrradianceError error = compareIrradiance(s.baked, truth, s.area);
+    writeJson(options.output, toJson(options, error, s, truth, cpuSeconds));
+    if (!globals.quiet)
+        fmt::print("{} texels: relative RMSE {:.3f} %, bias {:+.4f} % (± {:.4f}), mean relative "
+                   "error {:.2f} %; the truth's own error {:.3f} %\n",
+                   error.texels, 100 * error.relativeRmse, 100 * error.bias, 100 * error.biasError,
+                   100 * error.meanRelative, 100 * error.truthError);
+}
+
+}  // namespace vlf::app

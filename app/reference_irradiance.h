@@ -1,0 +1,22 @@
+#pragma once
+// The irradiance mode of vlf reference.
+
+#include "commands.h"
+
+#include <string>
+#include <vector>
+
+namespace vlf::app {
+
+struct IrradianceOptions {
+    std::vector<std::string> scenes;
+    std::string field;   ///< .vlf to be measured
+    std::string output;  ///< .json
+    int samplesPerTexel = 1024;
+    int texels = 0;      ///< how many to look at, spread evenly; 0: all
+};
+
+/// Path-traces the irradiance of a field's texels and reports how far the field is off.
+void runIrradianceReference(const IrradianceOptions& options, const Globals& globals);
+
+}  // namespace vlf::app
