@@ -67,7 +67,8 @@ EnergyReport energyBalance(const BakeState& state) {
     for (const Light& light : state.sources.lights)
         emitted += glm::dvec3(light.radiance) * static_cast<double>(kPi * light.area);
     for (std::size_t i = 0; i < state.irradiance.size(); ++i) {
-        const glm::dvec3 flux = glm::dvec3(state.irradiance[i]) * static_cast<double>(state.unwrap.texelArea(i));
+        const glm::dvec3 flux =
+            glm::dvec3(state.irradiance[i]) * static_cast<double>(state.unwrap.texelArea(i));
         absorbed += flux * glm::dvec3(state.absorptance[i]);
         reflected += flux * glm::dvec3(state.reflectance[i]);
     }
@@ -91,14 +92,14 @@ BakeParams presetParams(const std::string& name) {
         p.directions = 129;
         p.cells = 256;
         p.texelBudget = 20000;
-        p.directSamples = 16;
+        p.directSamples = 4;
         p.tolerance = 5e-3;
         p.radianceDirections = 513;
         p.radianceCells = 128;
     } else if (name == "high") {
         p.directions = 8193;
         p.texelBudget = 150000;
-        p.directSamples = 144;
+        p.directSamples = 64;
         p.tolerance = 2e-4;
         p.radianceCells = 512;
     } else if (name != "standard") {

@@ -19,18 +19,18 @@ namespace vlf {
 
 struct BakeParams {
     std::string preset = "standard";
-    int directions = 513;        ///< lines l of the last sweep: 2·4ⁿ + 1
-    int cells = 512;             ///< N: rays along one side of a bundle
-    float texelSize = 0;         ///< metres; 0: from texelBudget
+    int directions = 513;  ///< lines l of the last sweep: 2·4ⁿ + 1
+    int cells = 512;       ///< N: rays along one side of a bundle
+    float texelSize = 0;   ///< metres; 0: from texelBudget
     double texelBudget = 75000;
-    int directSamples = 32;      ///< shadow rays per texel
+    int directSamples = 8;       ///< shadow rays per texel outside penumbrae
     int coarseDirections = 129;  ///< of the sweeps before the last
     int coarseCells = 128;
-    int maxBounces = 0;          ///< 0: until converged
-    double tolerance = 1e-3;     ///< of the light still missing, relative
+    int maxBounces = 0;             ///< 0: until converged
+    double tolerance = 1e-3;        ///< of the light still missing, relative
     int radianceDirections = 2049;  ///< of the radiance field of mirror charts; 0: none
     int radianceCells = 256;
-    int tileSize = 16;              ///< m
+    int tileSize = 16;  ///< m
     std::uint64_t seed = 0;
 };
 
@@ -65,11 +65,11 @@ struct BakeState {
     FieldFrame frame;
     BundleFaces faces;
     LightSources sources;
-    std::vector<Vec3> reflectance;         ///< diffuse
-    std::vector<Vec3> absorptance;         ///< 1 - diffuse - mirror reflectance
-    std::vector<Vec3> directIrradiance;    ///< W·m⁻²
-    std::vector<Vec3> irradiance;          ///< W·m⁻²: direct and all bounces so far
-    std::vector<std::uint8_t> reached;     ///< whether any ray has met the texel
+    std::vector<Vec3> reflectance;       ///< diffuse
+    std::vector<Vec3> absorptance;       ///< 1 - diffuse - mirror reflectance
+    std::vector<Vec3> directIrradiance;  ///< W·m⁻²
+    std::vector<Vec3> irradiance;        ///< W·m⁻²: direct and all bounces so far
+    std::vector<std::uint8_t> reached;   ///< whether any ray has met the texel
     BakeReport report;
 };
 

@@ -1,11 +1,11 @@
 #include "vlf/propagate/bundle_sweep.h"
 
 #include "vlf/base/error.h"
+#include "vlf/propagate/sweep_buffers.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <limits>
 
 // Compiled once per instruction set; the best one is chosen at run time.
 #undef HWY_TARGET_INCLUDE
@@ -13,70 +13,6 @@
 #define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_AVX3_DL)
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
-
-#ifndef VLF_BUNDLE_SWEEP_ONCE
-#define VLF_BUNDLE_SWEEP_ONCE
-
-namespace vlf {
-
-namespace sweep {
-
-// A fragment is a texel index and two flags.
-inline constexpr std::uint32_t kExit = 1u << 31;        // its texel faces along the direction
-inline constexpr std::uint32_t kMirrorBit = 1u << 30;
-inline constexpr std::uint32_t kTexelMask = kMirrorBit - 1;
-inline constexpr std::uint32_t kNone = kTexelMask;      // no fragment: neither exit nor mirror
-
-/// SIMD loads and stores may reach this many cells beyond a row's end.
-inline constexpr std::size_t kPadding = 16;
-
-inline constexpr float kFar = std::numeric_limits<float>::infinity();
-
-/// Of touching surfaces the one whose texels face against the direction comes first, so that
-/// nothing is exchanged within the crack. Part of the field's radius.
-inline constexpr float kContactBias = 1e-5f;
-
-/// A face as seen along the direction: depth and texel coordinates are affine in the cell.
-struct Plane {
-    float atReference, perX, perY;
-
-    float at(int dx, int dy) const { return atReference + perX * dx + perY * dy; }
-};
-
-struct ProjectedFace {
-    Plane depth, u, v;
-    int xReference, yReference;
-    float uMax, vMax;  // last column and row of the chart
-    std::uint32_t origin;
-    std::uint32_t flags;
-};
-
-struct Span {
-    std::uint32_t face;
-    std::uint32_t next;
-    std::int16_t begin, end;
-};
-inline constexpr std::uint32_t kNoSpan = 0xffffffffu;
-
-}  // namespace sweep
-
-struct SweepScratch::Buffers {
-    std::vector<sweep::ProjectedFace> faces;
-    std::vector<sweep::Span> spans;
-    std::vector<std::uint32_t> rowHead;
-    // Sorted layers of one row: layer k at [k * stride].
-    std::vector<float> depth;
-    std::vector<std::uint32_t> fragment;
-    std::size_t stride = 0, layerCapacity = 0, layersUsed = 0;
-    std::vector<std::uint32_t> near, far;  // pairs to exchange
-
-    void prepare(int cells);
-    void addLayers(std::size_t capacity);
-};
-
-}  // namespace vlf
-
-#endif  // VLF_BUNDLE_SWEEP_ONCE
 
 HWY_BEFORE_NAMESPACE();
 namespace vlf {
@@ -204,8 +140,8 @@ class Sweep {
         face.uMax = static_cast<float>(faces_.width[i]) - 1;
         face.vMax = static_cast<float>(faces_.height[i]) - 1;
         face.origin = faces_.origin[i];
-        face.flags = (exits ? kExit : 0) |
-                     (faces_.flags[i] & BundleFaces::kMirror ? kMirrorBit : 0);
+        face.flags =
+            (exits ? kExit : 0) | (faces_.flags[i] & BundleFaces::kMirror ? kMirrorBit : 0);
         addSpans(face, c);
     }
 
@@ -451,7 +387,9 @@ std::uint64_t runSweep(const BundleFaces& faces, const ParallelSubfield& subfiel
     return Sweep(faces, subfield, radiance, gathered, sights, buffers).run();
 }
 
-const char* targetName() { return hwy::TargetName(HWY_TARGET); }
+const char* targetName() {
+    return hwy::TargetName(HWY_TARGET);
+}
 
 }  // namespace HWY_NAMESPACE
 }  // namespace vlf
@@ -463,33 +401,6 @@ namespace vlf {
 
 HWY_EXPORT(runSweep);
 HWY_EXPORT(targetName);
-
-void SweepScratch::Buffers::prepare(int cells) {
-    const std::size_t wanted = cells + sweep::kPadding;
-    if (stride != wanted) {
-        stride = wanted;
-        layerCapacity = layersUsed = 0;
-        depth.clear();
-        fragment.clear();
-        addLayers(32);
-        near.resize(stride + sweep::kPadding);
-        far.resize(stride + sweep::kPadding);
-    }
-    faces.clear();
-    spans.clear();
-    rowHead.assign(cells, sweep::kNoSpan);
-}
-
-void SweepScratch::Buffers::addLayers(std::size_t capacity) {
-    layerCapacity = capacity;
-    depth.resize(capacity * stride, sweep::kFar);
-    fragment.resize(capacity * stride, sweep::kNone);
-}
-
-SweepScratch::SweepScratch() : buffers_(std::make_unique<Buffers>()) {}
-SweepScratch::~SweepScratch() = default;
-SweepScratch::SweepScratch(SweepScratch&&) noexcept = default;
-SweepScratch& SweepScratch::operator=(SweepScratch&&) noexcept = default;
 
 std::uint64_t sweepBundle(const BundleFaces& faces, const ParallelSubfield& subfield,
                           const TexelBuffer& radiance, TexelBuffer& gathered,
@@ -512,11 +423,15 @@ void useInstructionSet(const std::string& name) {
             return;
         }
     std::string known;
-    for (const std::string& n : availableInstructionSets()) known += (known.empty() ? "" : ", ") + n;
-    throw InputError("instruction set '" + name + "' is not available here: choose one of " + known);
+    for (const std::string& n : availableInstructionSets())
+        known += (known.empty() ? "" : ", ") + n;
+    throw InputError("instruction set '" + name + "' is not available here: choose one of " +
+                     known);
 }
 
-std::string currentInstructionSet() { return HWY_DYNAMIC_DISPATCH(targetName)(); }
+std::string currentInstructionSet() {
+    return HWY_DYNAMIC_DISPATCH(targetName)();
+}
 
 }  // namespace vlf
 

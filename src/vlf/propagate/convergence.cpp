@@ -10,7 +10,7 @@ constexpr int kMaxSweeps = 300;
 constexpr std::size_t kWindow = 3;  // bounces looked at together
 constexpr double kMinRate = 0.3, kMaxRate = 0.8;
 constexpr double kWorthExtrapolating = 0.01;  // flux growth; below, noise would be amplified
-}
+}  // namespace
 
 Convergence::Convergence(const BakeState& state) : chartArea_(state.unwrap.charts.size(), 0) {
     for (std::size_t i = 0; i < state.unwrap.texels.size(); ++i) {

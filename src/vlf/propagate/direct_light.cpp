@@ -16,20 +16,23 @@ namespace {
 constexpr int kMaxAnalyticTriangles = 8;
 constexpr int kFormFactorPoints = 4;
 constexpr std::array<std::size_t, kTexelGrid> kLatinSquare{1, 3, 0, 2};  // column taken in each row
+constexpr float kMinSamples = 3;
+constexpr float kLittle = 0.01f;   // share of the likely effect of all lights
 constexpr float kGrazing = 1e-5f;  // cosine: a point in a light's own plane gets nothing from it
 constexpr std::size_t kTexelsPerBlock = 64;
 
-// Second pass over texels in or beside a penumbra: how many times the samples of the first, and
-// the first's standard error (relative to the texel's light and the room's) that calls for it.
-constexpr int kRefinement = 6;
-constexpr float kRefineAbove = 0.004f;
+// Second pass over texels in or beside a penumbra or close to a light: from kRefinement times the
+// samples of the first, the more the larger its standard error; and the standard error (relative
+// to the texel's light and the room's) that calls for it.
+constexpr int kRefinement = 6, kMaxRefinement = 48;
+constexpr float kRefineAbove = 0.004f, kRefineTo = 0.008f;
 constexpr float kRoomShare = 0.3f;
 constexpr float kShadowEdge = 0.25f;  // relative step between neighbours that counts as an edge
 
 struct LightSample {
     Vec3 point, normal;  // world
     Vec3 radiance;
-    float density;       // m⁻²
+    float density;  // m⁻²
 };
 
 LightSample sampleLight(const Scene& scene, const Light& light, Vec2 u) {
@@ -41,8 +44,8 @@ LightSample sampleLight(const Scene& scene, const Light& light, Vec2 u) {
     u.x = std::clamp((target - before) / (sums[i] - before), 0.0f, 0.99999994f);
     const LightPatch& patch = light.patches[i];
     const Vec2 w = sampleUniformTriangle(u);
-    const Vec2 b = (1 - w.x - w.y) * patch.corners[0] + w.x * patch.corners[1] +
-                   w.y * patch.corners[2];
+    const Vec2 b =
+        (1 - w.x - w.y) * patch.corners[0] + w.x * patch.corners[1] + w.y * patch.corners[2];
     const Vec3 normal = geometricNormal(scene, patch.triangle) * (light.front ? 1.0f : -1.0f);
     const Material& material = scene.material(patch.triangle);
     const Vec3 radiance = light.uniform
@@ -91,8 +94,11 @@ class DirectGatherer {
         RandomStream random(params_.seed + pass, receiver.key);
         for (std::size_t i = 0; i < estimates_.size(); ++i) {
             if (estimates_[i] <= 0) continue;
-            // Expected samples; a light worth less than one is picked with that probability.
-            const float wanted = static_cast<float>(samples) * estimates_[i] / sum;
+            // Lights of some effect get a few samples whatever the others: those may be hidden.
+            // One of little effect is picked with a probability below one.
+            const float share = estimates_[i] / sum;
+            const float wanted = std::max(static_cast<float>(samples) * share,
+                                          std::min(kMinSamples, kMinSamples * share / kLittle));
             if (wanted < 1 && random.next() >= wanted) continue;
             const int n = std::max(1, static_cast<int>(std::ceil(wanted)));
             total.add(gather(receiver, sources_.images[i], n, random), std::max(1.0f, 1 / wanted));
@@ -127,9 +133,10 @@ class DirectGatherer {
         const float cosReceiver = glm::dot(r.normal, toLight) / distance;
         const float cosLight =
             -glm::dot(image.imageFromWorld.vector(light.normal), toLight) / distance;
-        const float spread = light.planar ? 0.0f : std::acos(std::clamp(light.normalCosine, -1.0f, 1.0f));
+        const float spread =
+            light.planar ? 0.0f : std::acos(std::clamp(light.normalCosine, -1.0f, 1.0f));
         if (light.planar && cosLight < -slack) return 0;
-        if (image.depth > 0 && !mayBeSeenInMirror(r, image, distance, reach)) return 0;
+        if (image.depth > 0 && !mayBeSeenInMirror(r, image)) return 0;
         const float facing = std::clamp(cosReceiver + 0.5f * slack, 0.02f, 1.0f);
         const float emitting = std::clamp(cosLight + 0.5f * slack + spread, 0.02f, 1.0f);
         return luminance(light.radiance * image.throughput) * light.area * facing * emitting /
@@ -138,26 +145,29 @@ class DirectGatherer {
 
     /// Whether normals within the texel vary so much that its mean says little.
     bool curvedSlack(const Receiver& r, const Light&) const {
-        return !unwrap_.charts[unwrap_.triangleCharts[r.points[0].triangle].front == kNoChart
-                                   ? unwrap_.triangleCharts[r.points[0].triangle].back
-                                   : unwrap_.triangleCharts[r.points[0].triangle].front]
+        return !unwrap_
+                    .charts[unwrap_.triangleCharts[r.points[0].triangle].front == kNoChart
+                                ? unwrap_.triangleCharts[r.points[0].triangle].back
+                                : unwrap_.triangleCharts[r.points[0].triangle].front]
                     .planar;
     }
 
-    /// Whether lines from the receiver to the image cross the first mirror's rectangle, give or
-    /// take `reach`.
-    bool mayBeSeenInMirror(const Receiver& r, const LightImage& image, float distance,
-                           float reach) const {
+    /// Whether lines from the receiver to the image may cross the rectangle of the first mirror.
+    bool mayBeSeenInMirror(const Receiver& r, const LightImage& image) const {
         const Chart& mirror = unwrap_.charts[image.mirror[0]];
-        const Vec3 centre = image.imageFromWorld.point(sources_.lights[image.light].centre);
-        const Vec3 direction = (centre - r.centre) / distance;
-        const Vec2 a = mirror.texelCoordinates(r.centre), b = mirror.texelCoordinates(centre);
-        const float margin = reach * glm::length(mirror.uAxis);
-        const float marginV = reach * glm::length(mirror.vAxis);
-        const Vec2 lower = glm::min(a, b), upper = glm::max(a, b);
-        return glm::dot(mirror.normal, direction) < reach / distance &&
-               upper.x > -margin && lower.x < mirror.width + margin && upper.y > -marginV &&
-               lower.y < mirror.height + marginV;
+        const Light& light = sources_.lights[image.light];
+        const Vec3 centre = image.imageFromWorld.point(light.centre);
+        const float before = sources_.mirrorDistance(image.mirror[0], r.centre);
+        const float behind = -sources_.mirrorDistance(image.mirror[0], centre);
+        if (before < -r.radius || behind < -light.radius) return false;
+        const float share = std::max(before, 0.0f) / std::max(before + behind, 1e-20f);
+        const Vec2 crossing = mirror.texelCoordinates(r.centre + share * (centre - r.centre));
+        // How far the crossing moves as the ends move within their spheres, seen aslant.
+        const float cosine = std::max(before + behind, 1e-20f) / glm::distance(centre, r.centre);
+        const float reach = (share * light.radius + (1 - share) * r.radius) / cosine;
+        const Vec2 margin(reach * glm::length(mirror.uAxis), reach * glm::length(mirror.vAxis));
+        return crossing.x > -margin.x && crossing.x < mirror.width + margin.x &&
+               crossing.y > -margin.y && crossing.y < mirror.height + margin.y;
     }
 
     struct Point {
@@ -172,29 +182,35 @@ class DirectGatherer {
     }
 
     /// Irradiance from one image by n samples.
-    DirectEstimate gather(const Receiver& r, const LightImage& image, int n,
-                          RandomStream& random) {
+    DirectEstimate gather(const Receiver& r, const LightImage& image, int n, RandomStream& random) {
         const Light& light = sources_.lights[image.light];
         drawSamples(r, image, n, random);
         findVisible();
         Vec3 seen(0), throughput(0);
-        float geometry = 0, visible = 0;
+        float geometry = 0, visible = 0, squares = 0;
         for (const Sample& s : samples_) {
+            const float contribution = s.geometry * luminance(s.throughput * s.radiance);
+            squares += contribution * contribution;
             geometry += s.geometry;
             throughput += s.geometry * s.throughput;
             seen += s.geometry * s.throughput * s.radiance;
             visible += maxComponent(s.throughput) > 0 ? s.geometry : 0;
         }
         if (geometry <= 0) return {};
+        const auto count = static_cast<float>(n);
+        if (!hasFormFactor(light)) {
+            const Vec3 mean = seen / count;
+            const float spread =
+                std::max(0.0f, squares / count - luminance(mean) * luminance(mean));
+            return {mean, spread / count};
+        }
         // The unoccluded part of a plain light is known exactly: only the share of it that is
         // visible is sampled.
-        const Vec3 value = hasFormFactor(light)
-                               ? light.radiance * kPi * formFactor(r, light, image) *
-                                     (throughput / geometry)
-                               : seen / static_cast<float>(n);
+        const Vec3 value =
+            light.radiance * kPi * formFactor(r, light, image) * (throughput / geometry);
         const float share = visible / geometry;
-        const float unoccluded = luminance(value) / std::max(share, 0.5f / n);
-        return {value, unoccluded * unoccluded * share * (1 - share) / n};
+        const float unoccluded = luminance(value) / std::max(share, 0.5f / count);
+        return {value, unoccluded * unoccluded * share * (1 - share) / count};
     }
 
     /// Pairs of a point of the texel and one of the light, both stratified, that face each other.
@@ -335,10 +351,13 @@ class PenumbraFinder {
         roomLight_ = kRoomShare * static_cast<float>(sum / static_cast<double>(estimates.size()));
     }
 
-    bool operator()(std::size_t i) const {
+    /// How many times the first pass's samples the texel needs; 0: no more.
+    int operator()(std::size_t i) const {
         const auto texel = static_cast<std::int64_t>(unwrap_.texels[i]);
         const auto pitch = static_cast<std::int64_t>(unwrap_.atlasWidth);
         const float own = luminance(estimates_[i].value);
+        float error = 0;
+        bool edge = false;
         // The gutter keeps all neighbours within the atlas.
         for (std::int64_t dy = -1; dy <= 1; ++dy)
             for (std::int64_t dx = -1; dx <= 1; ++dx) {
@@ -346,10 +365,12 @@ class PenumbraFinder {
                 if (n == kNone) continue;
                 const float other = luminance(estimates_[n].value);
                 const float light = std::max(own, other) + roomLight_;
-                if (std::sqrt(estimates_[n].variance) > kRefineAbove * light) return true;
-                if (std::abs(other - own) > kShadowEdge * light) return true;
+                error = std::max(error, std::sqrt(estimates_[n].variance) / light);
+                edge = edge || std::abs(other - own) > kShadowEdge * light;
             }
-        return false;
+        if (error < kRefineAbove && !edge) return 0;
+        const float wanted = error * error / (kRefineTo * kRefineTo);
+        return static_cast<int>(std::clamp<float>(wanted, kRefinement, kMaxRefinement));
     }
 
   private:
@@ -378,10 +399,11 @@ std::vector<Vec3> directIrradiance(const Scene& scene, const RayScene& rays, con
     const PenumbraFinder needsMore(unwrap, first);
     forEachTexel(texels, prototype, done, [&](DirectGatherer& gatherer, std::size_t i) {
         irradiance[i] = first[i].value;
-        if (!needsMore(i)) return;
-        const Vec3 more = gatherer.irradiance(i, kRefinement * params.samples, 1).value;
-        irradiance[i] = (first[i].value + static_cast<float>(kRefinement) * more) /
-                        static_cast<float>(1 + kRefinement);
+        const int times = needsMore(i);
+        if (times == 0) return;
+        const Vec3 more = gatherer.irradiance(i, times * params.samples, 1).value;
+        irradiance[i] =
+            (first[i].value + static_cast<float>(times) * more) / static_cast<float>(1 + times);
     });
     return irradiance;
 }

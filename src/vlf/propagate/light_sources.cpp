@@ -1,6 +1,7 @@
 #include "vlf/propagate/light_sources.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 
@@ -9,6 +10,7 @@ namespace vlf {
 namespace {
 
 constexpr std::size_t kMaxImages = 4096;
+constexpr std::size_t kMaxFaces = 6;  // charts of an emitting body that stay lights of their own
 
 constexpr int kTextureLevels = 4;  // a textured emitting triangle is cut in 4^4
 
@@ -68,27 +70,55 @@ void finishLight(const Scene& scene, Light& light) {
     }
     light.radiance /= light.area;
     for (float& d : light.density) d /= std::max(light.cumulativePower.back(), 1e-30f);
-    light.normal = glm::normalize(areaSum);
+    const float length = glm::length(areaSum);
+    light.normal = length > 1e-6f * light.area ? areaSum / length : Vec3(0);
     light.centre = bounds.centre();
     for (const std::uint32_t t : light.triangles) {
-        light.normalCosine = std::min(light.normalCosine,
-                                      glm::dot(side * geometricNormal(scene, t), light.normal));
+        light.normalCosine =
+            std::min(light.normalCosine, glm::dot(side * geometricNormal(scene, t), light.normal));
         for (int c = 0; c < 3; ++c)
             light.radius =
                 std::max(light.radius, glm::distance(light.centre, scene.position(t, c)));
     }
 }
 
+/// Emitting charts that touch, by the position of their vertices.
+class TouchingCharts {
+  public:
+    explicit TouchingCharts(const Scene& scene) : scene_(scene) {}
+
+    void add(std::uint32_t chart, std::uint32_t triangle) {
+        parent_.try_emplace(chart, chart);
+        for (int c = 0; c < 3; ++c) {
+            const Vec3& p = scene_.position(triangle, c);
+            const auto [it, isNew] = chartAt_.try_emplace({p.x, p.y, p.z}, chart);
+            if (!isNew) parent_[root(chart)] = root(it->second);
+        }
+    }
+
+    std::uint32_t root(std::uint32_t chart) {
+        while (parent_[chart] != chart) chart = parent_[chart] = parent_[parent_[chart]];
+        return chart;
+    }
+
+  private:
+    const Scene& scene_;
+    std::map<std::uint32_t, std::uint32_t> parent_;
+    std::map<std::array<float, 3>, std::uint32_t> chartAt_;
+};
+
+/// Emitters by chart; a body of more than kMaxFaces charts (a bulb) becomes one light. An emitting
+/// side without a chart, facing the inside of a solid, lights nothing.
 std::vector<Light> findLights(const Scene& scene, const Unwrap& unwrap) {
-    // Keyed by chart so that the order is that of the charts; an emitting side without a chart
-    // (facing the inside of a solid) lights nothing.
     std::map<std::uint32_t, Light> byChart;
+    TouchingCharts touching(scene);
     const auto add = [&](std::uint32_t chart, std::uint32_t triangle, bool front) {
         if (chart == kNoChart) return;
         Light& light = byChart[chart];
         light.triangles.push_back(triangle);
         light.front = front;
         light.planar = unwrap.charts[chart].planar;
+        touching.add(chart, triangle);
     };
     for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) {
         const Material& material = scene.material(t);
@@ -96,11 +126,26 @@ std::vector<Light> findLights(const Scene& scene, const Unwrap& unwrap) {
         add(unwrap.triangleCharts[t].front, t, true);
         if (material.emitsBothSides) add(unwrap.triangleCharts[t].back, t, false);
     }
+    std::map<std::pair<std::uint32_t, bool>, std::vector<std::uint32_t>> bodies;
+    for (const auto& [chart, light] : byChart)
+        bodies[{touching.root(chart), light.front}].push_back(chart);
     std::vector<Light> lights;
-    for (auto& [chart, light] : byChart) {
-        finishLight(scene, light);
-        if (light.cumulativePower.back() > 0) lights.push_back(std::move(light));
+    for (const auto& [body, charts] : bodies) {
+        const bool merged = charts.size() > kMaxFaces;
+        for (const std::uint32_t chart : charts) {
+            Light& light = byChart[chart];
+            if (merged && chart != charts.front()) {
+                Light& whole = lights.back();
+                whole.triangles.insert(whole.triangles.end(), light.triangles.begin(),
+                                       light.triangles.end());
+                whole.planar = false;
+            } else {
+                lights.push_back(std::move(light));
+            }
+        }
     }
+    for (Light& light : lights) finishLight(scene, light);
+    std::erase_if(lights, [](const Light& l) { return l.cumulativePower.back() <= 0; });
     return lights;
 }
 
@@ -145,16 +190,21 @@ LightSources findLightSources(const Scene& scene, const Unwrap& unwrap) {
     LightSources sources;
     sources.lights = findLights(scene, unwrap);
     sources.planarMirror.assign(unwrap.charts.size(), 0);
+    sources.mirrorOffset.assign(unwrap.charts.size(), 0);
+    for (const Chart& c : unwrap.charts) sources.mirrorNormal.push_back(c.normal);
     std::map<std::uint32_t, Vec3> mirrors;  // planar mirror chart -> a point of it
     for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) {
         if (!scene.material(t).isMirror()) continue;
-        for (const std::uint32_t c : {unwrap.triangleCharts[t].front, unwrap.triangleCharts[t].back})
+        for (const std::uint32_t c :
+             {unwrap.triangleCharts[t].front, unwrap.triangleCharts[t].back})
             if (c != kNoChart && unwrap.charts[c].planar) {
                 mirrors.emplace(c, scene.position(t, 0));
                 sources.planarMirror[c] = 1;
+                sources.mirrorOffset[c] = glm::dot(unwrap.charts[c].normal, scene.position(t, 0));
             }
     }
-    for (std::uint32_t i = 0; i < sources.lights.size(); ++i) sources.images.emplace_back().light = i;
+    for (std::uint32_t i = 0; i < sources.lights.size(); ++i)
+        sources.images.emplace_back().light = i;
     std::size_t begin = 0;
     for (int depth = 1; depth <= kMaxImageDepth; ++depth) {
         const std::size_t end = sources.images.size();

@@ -34,7 +34,7 @@ struct LightPatch {
     std::array<Vec2, 3> corners;  ///< barycentric
 };
 
-/// An emitter: one side of the triangles of one chart.
+/// An emitter: one side of the triangles of one chart, or of a curved body of many.
 struct Light {
     std::vector<std::uint32_t> triangles;
     std::vector<LightPatch> patches;
@@ -43,11 +43,11 @@ struct Light {
     bool front = true;                   ///< the emitting side
     bool uniform = true;                 ///< no emission texture
     bool planar = true;
-    Vec3 radiance{0};                    ///< mean over its area, W·m⁻²·sr⁻¹
-    Vec3 normal{0};                      ///< mean emitting direction
-    float normalCosine = 1;              ///< of the widest angle between a normal and the mean
+    Vec3 radiance{0};        ///< mean over its area, W·m⁻²·sr⁻¹
+    Vec3 normal{0};          ///< mean emitting direction
+    float normalCosine = 1;  ///< of the widest angle between a normal and the mean
     Vec3 centre{0};
-    float radius = 0, area = 0;          ///< of the bounding sphere, m; m²
+    float radius = 0, area = 0;  ///< of the bounding sphere, m; m²
 };
 
 /// A light as seen by way of `depth` planar mirrors; depth 0 is the light itself.
@@ -63,7 +63,14 @@ struct LightSources {
     std::vector<Light> lights;
     std::vector<LightImage> images;
     std::vector<std::uint8_t> planarMirror;  ///< per chart
+    std::vector<float> mirrorOffset;         ///< per chart: of a planar mirror's plane
+    std::vector<Vec3> mirrorNormal;          ///< per chart
     int imageDepth = 0;  ///< chains of up to this many planar mirrors are in `images`
+
+    /// Signed distance of p from the plane of planar mirror chart m, positive before it.
+    float mirrorDistance(std::uint32_t m, const Vec3& p) const {
+        return glm::dot(mirrorNormal[m], p) - mirrorOffset[m];
+    }
 
     /// Whether emission seen over these mirrors (charts, in order) is already in the direct light.
     bool covers(int depth, bool allPlanar) const { return allPlanar && depth <= imageDepth; }

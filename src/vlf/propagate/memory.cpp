@@ -13,9 +13,9 @@ namespace {
 // Bytes, measured: per texel its points, accumulators and irradiances; per triangle its vertices,
 // faces, adjacency and acceleration structure.
 constexpr double kPerTexel = 620, kPerTriangle = 900, kBase = 60e6;
-constexpr double kAtlasOverhead = 1.3;    // gutters, gaps, texels cut by edges
-constexpr double kElementBytes = 8;       // RadianceElement
-constexpr double kRadianceOverhead = 1.9; // rectangles around charts, guard band
+constexpr double kAtlasOverhead = 1.3;     // gutters, gaps, texels cut by edges
+constexpr double kElementBytes = 8;        // RadianceElement
+constexpr double kRadianceOverhead = 1.9;  // rectangles around charts, guard band
 
 struct Areas {
     double all = 0, mirror = 0;
@@ -31,7 +31,9 @@ Areas areasOf(const Scene& scene) {
     return areas;
 }
 
-double gibibytes(double bytes) { return bytes / (1024.0 * 1024 * 1024); }
+double gibibytes(double bytes) {
+    return bytes / (1024.0 * 1024 * 1024);
+}
 
 std::string text(double value) {
     char buffer[32];
@@ -43,13 +45,14 @@ std::string text(double value) {
 
 MemoryNeed predictMemory(const Scene& scene, const BakeParams& params) {
     const Areas areas = areasOf(scene);
-    const double texels = params.texelSize > 0
-                              ? areas.all / (static_cast<double>(params.texelSize) * params.texelSize)
-                              : params.texelBudget;
+    const double texels =
+        params.texelSize > 0
+            ? areas.all / (static_cast<double>(params.texelSize) * params.texelSize)
+            : params.texelBudget;
     MemoryNeed need;
-    need.transport = static_cast<std::uint64_t>(
-        kBase + kAtlasOverhead * kPerTexel * texels +
-        kPerTriangle * static_cast<double>(scene.triangles.size()));
+    need.transport =
+        static_cast<std::uint64_t>(kBase + kAtlasOverhead * kPerTexel * texels +
+                                   kPerTriangle * static_cast<double>(scene.triangles.size()));
     // Half of all directions see a side, at a mean cosine of one half.
     const double cell = 2.0 * boundingSphere(scene).radius / (params.radianceCells - 1);
     const double elements = 0.5 * params.radianceDirections * areas.mirror / (cell * cell);
@@ -64,16 +67,18 @@ void requireMemory(const Scene& scene, const BakeParams& params, std::uint64_t b
     std::string advice;
     if (static_cast<double>(need.radiance) > 0.5 * limit) {
         const double scale = std::sqrt(0.4 * limit / static_cast<double>(need.radiance));
-        advice += " --radiance-cells " + std::to_string(static_cast<int>(params.radianceCells * scale));
+        advice +=
+            " --radiance-cells " + std::to_string(static_cast<int>(params.radianceCells * scale));
     }
     if (static_cast<double>(need.transport) > 0.5 * limit) {
-        const double size = params.texelSize > 0
-                                ? params.texelSize
-                                : texelSizeForBudget(scene, params.texelBudget);
-        advice += " --texel " + text(size * std::sqrt(static_cast<double>(need.transport) / (0.4 * limit)));
+        const double size =
+            params.texelSize > 0 ? params.texelSize : texelSizeForBudget(scene, params.texelBudget);
+        advice += " --texel " +
+                  text(size * std::sqrt(static_cast<double>(need.transport) / (0.4 * limit)));
     }
     throw InputError("this bake needs about " + text(gibibytes(static_cast<double>(need.total()))) +
-                     " GiB, more than the " + text(gibibytes(limit)) + " GiB allowed: try" + advice);
+                     " GiB, more than the " + text(gibibytes(limit)) + " GiB allowed: try" +
+                     advice);
 }
 
 }  // namespace vlf

@@ -10,9 +10,11 @@ namespace {
 
 constexpr float kMinCosine = 1e-3f;  // sides more grazing than this show nothing
 constexpr float kGuard = 1;          // cells
-constexpr float kMaxGuard = 2;       // of the cell size on the chart, where it is seen at grazing angles
+constexpr float kMaxGuard = 2;  // of the cell size on the chart, where it is seen at grazing angles
 
-float cross(const Vec2& a, const Vec2& b) { return a.x * b.y - a.y * b.x; }
+float cross(const Vec2& a, const Vec2& b) {
+    return a.x * b.y - a.y * b.x;
+}
 
 /// Point of segment ab closest to p, as a fraction of ab.
 float closestOnSegment(const Vec2& a, const Vec2& b, const Vec2& p) {
@@ -33,8 +35,11 @@ struct MirrorCellFinder::Projected {
 
     /// Cells whose centres lie within the guard of the bounding rectangle.
     CellRange range(int cells) const {
-        const Vec2 lo = glm::ceil(lower() - (kGuard + 0.5f)), hi = glm::floor(upper() + (kGuard - 0.5f));
-        const auto clampCell = [&](float v) { return static_cast<int>(std::clamp(v, 0.0f, static_cast<float>(cells))); };
+        const Vec2 lo = glm::ceil(lower() - (kGuard + 0.5f)),
+                   hi = glm::floor(upper() + (kGuard - 0.5f));
+        const auto clampCell = [&](float v) {
+            return static_cast<int>(std::clamp(v, 0.0f, static_cast<float>(cells)));
+        };
         return {clampCell(lo.x), clampCell(lo.y), clampCell(hi.x + 1), clampCell(hi.y + 1)};
     }
 
@@ -134,8 +139,7 @@ void MirrorCellFinder::cover(const Projected& triangle, std::uint32_t side) {
             const Vec2 off = triangle.at(b) - centre;
             const bool within = glm::dot(off, off) < 1e-6f;
             const float outside = within ? 0 : glm::dot(off, off);
-            const float nearness =
-                glm::dot(triangle.nearness, Vec3(1 - b.x - b.y, b.x, b.y));
+            const float nearness = glm::dot(triangle.nearness, Vec3(1 - b.x - b.y, b.x, b.y));
             Candidate& best =
                 candidates_[static_cast<std::size_t>(y - range_.y0) * (range_.x1 - range_.x0) + x -
                             range_.x0];
@@ -148,8 +152,8 @@ MirrorCell MirrorCellFinder::cellAt(const MirrorChart& chart, const ParallelSubf
                                     const Vec3& toEye, int x, int y,
                                     const Candidate& candidate) const {
     const MirrorChart::Side& side = chart.sides[candidate.side];
-    MirrorCell cell{x, y, side.triangle, side.front, candidate.barycentric, Vec3(0),
-                    candidate.outside > 0};
+    MirrorCell cell{
+        x, y, side.triangle, side.front, candidate.barycentric, Vec3(0), candidate.outside > 0};
     cell.position = positionAt(scene_, side.triangle, candidate.barycentric);
     if (!chart.planar) return cell;
     // On to where the cell's ray meets the plane.
@@ -169,7 +173,8 @@ const std::vector<MirrorCell>& MirrorCellFinder::find(const MirrorChart& chart,
     cells_.clear();
     range_ = range(chart, subfield, toEye);
     if (range_.empty()) return cells_;
-    candidates_.assign(static_cast<std::size_t>(range_.x1 - range_.x0) * (range_.y1 - range_.y0), {});
+    candidates_.assign(static_cast<std::size_t>(range_.x1 - range_.x0) * (range_.y1 - range_.y0),
+                       {});
     Projected triangle;
     for (std::uint32_t i = 0; i < chart.sides.size(); ++i)
         if (project(chart.sides[i], subfield, toEye, triangle)) cover(triangle, i);

@@ -70,11 +70,11 @@ class MirrorCellFinder {
     };
     struct Projected;
 
-    bool project(const MirrorChart::Side& side, const ParallelSubfield& subfield,
-                 const Vec3& toEye, Projected& projected) const;
+    bool project(const MirrorChart::Side& side, const ParallelSubfield& subfield, const Vec3& toEye,
+                 Projected& projected) const;
     void cover(const Projected& triangle, std::uint32_t side);
-    MirrorCell cellAt(const MirrorChart& chart, const ParallelSubfield& subfield,
-                      const Vec3& toEye, int x, int y, const Candidate& candidate) const;
+    MirrorCell cellAt(const MirrorChart& chart, const ParallelSubfield& subfield, const Vec3& toEye,
+                      int x, int y, const Candidate& candidate) const;
 
     const Scene& scene_;
     CellRange range_;

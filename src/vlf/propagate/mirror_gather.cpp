@@ -46,19 +46,20 @@ void MirrorGatherer::start(const ParallelSubfield& subfield,
                         subfield.depthOffset * subfield.direction;
     for (const MirrorSight& s : sights) {
         const Vec3 direction = s.forward ? subfield.direction : -subfield.direction;
-        const Vec3 cell = origin + (perCell * s.x) * subfield.xAxis + (perCell * s.y) * subfield.yAxis;
+        const Vec3 cell =
+            origin + (perCell * s.x) * subfield.xAxis + (perCell * s.y) * subfield.yAxis;
         const std::uint32_t chart = chartOf_[s.mirror];
         if (isPlainMirror(chart)) {
             const Vec3& n = unwrap_.charts[chart].normal;
             queue_.push_back({cell + s.mirrorDepth * subfield.direction + rays_.epsilon() * n,
                               glm::reflect(direction, n)});
-            paths_.push_back({s.receiver, 1, true,
-                              scene_.materials[unwrap_.charts[chart].material].mirror});
+            paths_.push_back(
+                {s.receiver, 1, true, scene_.materials[unwrap_.charts[chart].material].mirror});
         } else {
             // From the receiver on, to find where exactly the mirror is met.
-            queue_.push_back({cell + s.receiverDepth * subfield.direction +
-                                  rays_.epsilon() * direction,
-                              direction});
+            queue_.push_back(
+                {cell + s.receiverDepth * subfield.direction + rays_.epsilon() * direction,
+                 direction});
             paths_.push_back({s.receiver, 0, true, Vec3(1)});
         }
     }
@@ -79,9 +80,8 @@ void MirrorGatherer::advance(const TexelBuffer& radiance, TexelBuffer& gathered)
         const Path& path = paths_[i];
         const Vec3 position = queue_[i].origin + hit.t * queue_[i].direction;
         if (path.reflections > 0)
-            gathered.addRgb(path.receiver,
-                            path.throughput *
-                                radianceSeen(path, hit, chart, front, position, radiance));
+            gathered.addRgb(path.receiver, path.throughput * radianceSeen(path, hit, chart, front,
+                                                                          position, radiance));
         if (path.reflections < kMaxReflections && scene_.material(hit.triangle).isMirror())
             reflect(path, queue_[i].direction, hit, chart, front, position);
     }

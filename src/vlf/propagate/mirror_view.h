@@ -19,9 +19,9 @@ struct MirrorView {
 };
 
 /// Distance behind a mirror of the image of a point at distance d > 0 before it: the mean of the
-/// tangential and the sagittal focus, 1/d' = 1/d + κ (1/cosθ + cosθ), for curvature κ (1/m, positive
-/// where the mirror is convex) and angle of incidence θ. `longest` where the image lies beyond that
-/// or is real (a concave mirror).
+/// tangential and the sagittal focus, 1/d' = 1/d + κ (1/cosθ + cosθ), for curvature κ (1/m,
+/// positive where the mirror is convex) and angle of incidence θ. `longest` where the image lies
+/// beyond that or is real (a concave mirror).
 float imageDistance(float d, float curvature, float cosine, float longest);
 
 /// Follows rays from mirror charts. Light seen is emission (of the emitting side) and ρE/π of the

@@ -44,7 +44,8 @@ TexelBuffer sweep(BakeState& state, const DirectionSet& directions, int cells, i
                   const TexelBuffer& radiance, Progress& progress) {
     std::vector<TexelBuffer> gathered(kAccumulators, TexelBuffer(state.unwrap.atlasSize()));
     std::vector<std::uint64_t> exchanges(kAccumulators, 0);
-    const std::uint64_t seed = mixBits(state.params.seed) + static_cast<std::uint64_t>(rotation + 1);
+    const std::uint64_t seed =
+        mixBits(state.params.seed) + static_cast<std::uint64_t>(rotation + 1);
     RandomStream turns(seed, ~0ull);
     const Mat3 turn =
         rotation < 0 ? Mat3(1) : sampleUniformRotation(Vec3(turns.next2(), turns.next()));
@@ -61,7 +62,8 @@ TexelBuffer sweep(BakeState& state, const DirectionSet& directions, int cells, i
             const ParallelSubfield subfield =
                 makeSubfield(state.frame, direction, cells, roll, random.next2());
             sights.clear();
-            exchanges[a] += sweepBundle(state.faces, subfield, radiance, gathered[a], sights, scratch);
+            exchanges[a] +=
+                sweepBundle(state.faces, subfield, radiance, gathered[a], sights, scratch);
             mirrors.gather(subfield, sights, radiance, gathered[a]);
             done.step();
         }

@@ -91,8 +91,8 @@ std::uint16_t packDistance(float distance, float longest) {
 RadianceSize radianceSize(const Scene& scene, const LightField& field,
                           const RadianceParams& params) {
     checkParams(params);
-    const RadianceField radiance = layOut(scene, field, DirectionSet(params.lines),
-                                          mirrorCharts(scene, field), params);
+    const RadianceField radiance =
+        layOut(scene, field, DirectionSet(params.lines), mirrorCharts(scene, field), params);
     const std::uint64_t elements = elementCount(radiance);
     return {elements, elements * sizeof(RadianceElement) +
                           radiance.blocks.size() * sizeof(TileBlock) +
@@ -108,9 +108,8 @@ RadianceField bakeRadiance(const Scene& scene, const RayScene& rays, const Light
     RadianceField radiance = layOut(scene, field, directions, mirrors, params);
     radiance.elements.resize(elementCount(radiance));
     const auto mirrorOf = [&](std::uint32_t chart) -> const MirrorChart& {
-        return *std::lower_bound(
-            mirrors.begin(), mirrors.end(), chart,
-            [](const MirrorChart& m, std::uint32_t c) { return m.chart < c; });
+        return *std::lower_bound(mirrors.begin(), mirrors.end(), chart,
+                                 [](const MirrorChart& m, std::uint32_t c) { return m.chart < c; });
     };
     const auto count = static_cast<std::size_t>(directions.directionCount());
     ProgressCounter done(progress, count);

@@ -12,9 +12,9 @@
 namespace vlf {
 
 struct RadianceParams {
-    int lines = 2049;    ///< of the direction set: 2·4ⁿ + 1
-    int cells = 256;     ///< N
-    int tileSize = 16;   ///< m
+    int lines = 2049;   ///< of the direction set: 2·4ⁿ + 1
+    int cells = 256;    ///< N
+    int tileSize = 16;  ///< m
 };
 
 /// Elements, bytes included, that bakeRadiance would make: cheap, exact.
@@ -22,7 +22,8 @@ struct RadianceSize {
     std::uint64_t elements = 0;
     std::uint64_t bytes = 0;
 };
-RadianceSize radianceSize(const Scene& scene, const LightField& field, const RadianceParams& params);
+RadianceSize radianceSize(const Scene& scene, const LightField& field,
+                          const RadianceParams& params);
 
 /// The radiance field of all charts whose material is a mirror. Of `field`, the charts, their
 /// triangles, the atlas and the frame are read. The subfield of a direction and of its opposite is

@@ -21,7 +21,9 @@ class TexelBuffer {
     float* data() { return values_.data(); }
     const float* data() const { return values_.data(); }
 
-    Vec3 rgb(std::size_t i) const { return {values_[4 * i], values_[4 * i + 1], values_[4 * i + 2]}; }
+    Vec3 rgb(std::size_t i) const {
+        return {values_[4 * i], values_[4 * i + 1], values_[4 * i + 2]};
+    }
     float weight(std::size_t i) const { return values_[4 * i + 3]; }
     void set(std::size_t i, const Vec3& rgb, float weight) {
         values_[4 * i] = rgb.x, values_[4 * i + 1] = rgb.y, values_[4 * i + 2] = rgb.z;

@@ -23,9 +23,10 @@ class BurialTest {
         const std::size_t probes = std::min(kProbes, points.size());
         std::array<std::uint8_t, kProbes> open{};
         for (std::size_t i = 0; i < probes; ++i)
-            open[i] = isOpen(texel, points[i * (points.size() - 1) / std::max<std::size_t>(1, probes - 1)]);
-        const bool allOpen = std::all_of(open.begin(), open.begin() + probes,
-                                         [](std::uint8_t o) { return o != 0; });
+            open[i] = isOpen(
+                texel, points[i * (points.size() - 1) / std::max<std::size_t>(1, probes - 1)]);
+        const bool allOpen =
+            std::all_of(open.begin(), open.begin() + probes, [](std::uint8_t o) { return o != 0; });
         for (std::size_t i = 0; i < points.size(); ++i)
             keep[i] = allOpen || isOpen(texel, points[i]);
     }

@@ -57,7 +57,8 @@ class Occupancy {
             const Vec3 a = frame_.toLocal(scene.position(t, 0)) / texelSize_;
             const Vec3 ab = frame_.toLocal(scene.position(t, 1)) / texelSize_ - a;
             const Vec3 ac = frame_.toLocal(scene.position(t, 2)) / texelSize_ - a;
-            const float longest = std::max({glm::length(ab), glm::length(ac), glm::length(ac - ab)});
+            const float longest =
+                std::max({glm::length(ab), glm::length(ac), glm::length(ac - ab)});
             const int steps = std::clamp(static_cast<int>(std::ceil(1.5f * longest)), 1, 512);
             for (int i = 0; i <= steps; ++i)
                 for (int j = 0; i + j <= steps; ++j) {
@@ -191,7 +192,7 @@ class Grouper {
     float texelSize_, planeTolerance_;
     MeshAdjacency adjacency_;
     std::vector<Patch> patches_;
-    std::vector<std::uint32_t> patchOf_;             // per triangle
+    std::vector<std::uint32_t> patchOf_;              // per triangle
     std::vector<std::vector<std::uint32_t>> smooth_;  // per patch
     std::vector<bool> assigned_;                      // per patch
 };

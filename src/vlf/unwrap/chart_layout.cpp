@@ -20,7 +20,9 @@ struct Rectangle {
     float area = std::numeric_limits<float>::infinity();
 };
 
-Vec2 leftOf(const Vec2& a) { return {-a.y, a.x}; }
+Vec2 leftOf(const Vec2& a) {
+    return {-a.y, a.x};
+}
 
 Rectangle rectangleAlong(const std::vector<Vec2>& points, const Vec2& uAxis) {
     Rectangle r{uAxis, Vec2(std::numeric_limits<float>::max()),

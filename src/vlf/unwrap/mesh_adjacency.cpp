@@ -59,8 +59,8 @@ std::vector<Edge> sortedEdges(const Scene& scene) {
 }
 
 bool isSmooth(const Scene& scene, const Edge& x, const Edge& y) {
-    const float fold = glm::dot(geometricNormal(scene, x.triangle),
-                                geometricNormal(scene, y.triangle));
+    const float fold =
+        glm::dot(geometricNormal(scene, x.triangle), geometricNormal(scene, y.triangle));
     if (fold > kSlightFold) return true;
     if (fold < kSmoothFold) return false;
     const auto normal = [&](const Edge& e, int end) {

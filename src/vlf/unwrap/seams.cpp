@@ -60,8 +60,8 @@ void linkChart(const Scene& scene, const RayScene& rays, const Unwrap& unwrap,
                    : lookup[(chart.y + y) * unwrap.atlasWidth + chart.x + x];
     };
     const auto neighbour = [&](int x, int y) {
-        for (const auto& [dx, dy] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1},
-                                     {-1, -1}, {1, -1}, {-1, 1}, {1, 1}})
+        for (const auto& [dx, dy] :
+             {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}, {-1, -1}, {1, -1}, {-1, 1}, {1, 1}})
             if (const std::uint32_t n = covered(x + dx, y + dy); n != kNone) return n;
         return kNone;
     };

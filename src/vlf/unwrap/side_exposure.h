@@ -18,7 +18,6 @@ struct OpenSides {
 /// reached. `groupOf` gives the group of each triangle. Deterministic for a seed.
 std::vector<OpenSides> findOpenSides(const Scene& scene, const RayScene& rays,
                                      const std::vector<ChartGroup>& groups,
-                                     const std::vector<std::uint32_t>& groupOf,
-                                     std::uint64_t seed);
+                                     const std::vector<std::uint32_t>& groupOf, std::uint64_t seed);
 
 }  // namespace vlf

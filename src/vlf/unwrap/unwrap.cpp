@@ -81,7 +81,8 @@ void appendTexels(std::uint32_t c, const TexelPoints& points, Unwrap& result) {
 std::vector<std::vector<std::uint32_t>> trianglesOfCharts(const Unwrap& unwrap) {
     std::vector<std::vector<std::uint32_t>> triangles(unwrap.charts.size());
     for (std::uint32_t t = 0; t < unwrap.triangleCharts.size(); ++t)
-        for (const std::uint32_t c : {unwrap.triangleCharts[t].front, unwrap.triangleCharts[t].back})
+        for (const std::uint32_t c :
+             {unwrap.triangleCharts[t].front, unwrap.triangleCharts[t].back})
             if (c != kNoChart) triangles[c].push_back(t);
     return triangles;
 }
@@ -137,8 +138,8 @@ float texelSizeForBudget(const Scene& scene, double budget) {
 
 Unwrap unwrap(const Scene& scene, const RayScene& rays, const UnwrapParams& params) {
     Unwrap result;
-    result.texelSize = params.texelSize > 0 ? params.texelSize
-                                            : texelSizeForBudget(scene, params.texelBudget);
+    result.texelSize =
+        params.texelSize > 0 ? params.texelSize : texelSizeForBudget(scene, params.texelBudget);
     checkSize(scene, result.texelSize);
     const std::vector<ChartGroup> groups = groupTriangles(scene, result.texelSize);
     const std::vector<std::uint32_t> groupOf = groupOfTriangles(groups, scene.triangles.size());
@@ -153,8 +154,7 @@ Unwrap unwrap(const Scene& scene, const RayScene& rays, const UnwrapParams& para
 }
 
 Unwrap restoreUnwrap(const Scene& scene, const RayScene& rays, const std::vector<Chart>& charts,
-                     const std::vector<TriangleCharts>& triangleCharts,
-                     const AtlasSize& atlas) {
+                     const std::vector<TriangleCharts>& triangleCharts, const AtlasSize& atlas) {
     Unwrap result;
     result.charts = charts;
     result.triangleCharts = triangleCharts;

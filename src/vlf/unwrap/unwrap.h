@@ -47,8 +47,8 @@ struct Unwrap {
 };
 
 struct UnwrapParams {
-    float texelSize = 0;        ///< metres; 0: from the budget
-    double texelBudget = 75000; ///< about how many texels to spend on the scene
+    float texelSize = 0;         ///< metres; 0: from the budget
+    double texelBudget = 75000;  ///< about how many texels to spend on the scene
     std::uint64_t seed = 0;
 };
 

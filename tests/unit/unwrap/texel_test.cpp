@@ -6,11 +6,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace vlf::test {
 
 TEST(TexelPoints, LieInTheirTexel) {
     for (const char* name : {"cornell", "mirror-room"}) {
-        const UnwrappedScene room(generateScene(name, {2000}), {0, 20000});
+        const UnwrappedScene room(generateScene(name), {0, 20000});
         const Unwrap& u = room.unwrap;
         for (std::size_t i = 0; i < u.texels.size(); ++i) {
             const Chart& chart = u.charts[u.texelChart[i]];

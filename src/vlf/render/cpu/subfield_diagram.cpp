@@ -21,6 +21,7 @@ namespace {
 constexpr Vec3 kGridInk{0.05f, 0.2f, 0.5f}, kTileInk{0.75f, 0.12f, 0.01f},
     kRayInk{0.1f, 0.3f, 0.7f};
 
+constexpr int kMostCells = 65535, kMostCellsOfTile = 256;
 constexpr int kUsualTile = 16;  ///< cells, of fields whose radiance is not stored by tiles
 
 constexpr int kMaxLayers = 32;  ///< surfaces behind one another that are looked through
@@ -103,8 +104,9 @@ int chooseTile(const std::optional<std::uint32_t>& wanted, int tiles) {
 
 Selection select(const LightField& field, const DiagramParams& params, const Camera& camera) {
     const DirectionSet set(field.record.directions);
-    if (field.record.cells < 1)
-        throw InputError("the light field does not say how many cells it was made with");
+    if (field.record.cells < 1 || field.record.cells > kMostCells ||
+        field.record.tileSize > kMostCellsOfTile)
+        throw InputError("the light field does not say how many cells and tiles it was made with");
     Selection selection;
     selection.subfield = makeSubfield(
         field.frame, set.direction(chooseDirection(set, params, camera)), field.record.cells);
@@ -196,6 +198,7 @@ class Drawing {
   public:
     Drawing(const Projection& projection, Image& image) : projection_(projection), image_(image) {}
 
+    const Vec3& eye() const { return projection_.eye(); }
     LineLayer sheet() const { return LineLayer(image_.width, image_.height); }
     void line(LineLayer& sheet, const Vec3& from, const Vec3& to, float thickness,
               float strength) const {
@@ -227,7 +230,8 @@ class Drawing {
 void drawRoom(const Drawing& drawing, const Scene& scene) {
     LineLayer sheet = drawing.sheet();
     for (const MeshEdge& edge : meshEdges(scene))
-        if (edge.crease) drawing.line(sheet, edge.from, edge.to, 1, 0.75f);
+        if (edge.crease || edge.isContour(drawing.eye()))
+            drawing.line(sheet, edge.from, edge.to, 1, 0.75f);
     drawing.lay(sheet, kInk);
 }
 

@@ -1,0 +1,105 @@
+// Baked irradiance against path tracing at texels spread over the scene.
+
+#include "solved_scene.h"
+
+#include "vlf/math/random.h"
+#include "vlf/render/cpu/irradiance_error.h"
+#include "vlf/scene/generate/generate.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <functional>
+
+namespace vlf::test {
+
+namespace {
+
+constexpr int kTexels = 300, kSamples = 1500;
+
+using Wanted = std::function<bool(std::size_t)>;
+
+/// Up to kTexels of the texels wanted, spread evenly over the atlas.
+std::vector<std::size_t> chooseTexels(const SolvedScene& s, const Wanted& wanted) {
+    std::vector<std::size_t> candidates, chosen;
+    for (std::size_t i = 0; i < s.state.unwrap.texels.size(); ++i)
+        if (wanted(i)) candidates.push_back(i);
+    RandomStream random(1, 2);
+    for (std::size_t k = 0; k < kTexels; ++k) {
+        const double place = (static_cast<double>(k) + random.next()) / kTexels;
+        chosen.push_back(
+            candidates[static_cast<std::size_t>(place * static_cast<double>(candidates.size()))]);
+    }
+    return chosen;
+}
+
+IrradianceError errorAgainstPathTracing(const SolvedScene& s, const Wanted& wanted) {
+    const Unwrap& u = s.state.unwrap;
+    std::vector<std::vector<SidePoint>> points;
+    std::vector<Vec3> baked;
+    std::vector<float> area;
+    for (const std::size_t i : chooseTexels(s, wanted)) {
+        std::vector<SidePoint>& places = points.emplace_back();
+        for (const SurfacePoint& p : u.points.of(i))
+            places.push_back(
+                {p.triangle, p.barycentric, u.triangleCharts[p.triangle].front == u.texelChart[i]});
+        baked.push_back(s.state.irradiance[i]);
+        area.push_back(u.texelArea(i));
+    }
+    const auto isOpen = [&](std::uint32_t t, bool front) {
+        return (front ? u.triangleCharts[t].front : u.triangleCharts[t].back) != kNoChart;
+    };
+    Progress progress;
+    const std::vector<TexelArea> places(points.begin(), points.end());
+    const auto truth =
+        estimateIrradiance(s.scene, s.state.rays, places, isOpen, {kSamples, 5, {}}, progress);
+    return compareIrradiance(baked, truth, area);
+}
+
+void expectAgreement(const std::string& what, const IrradianceError& e, double rmse, double bias) {
+    std::printf("%s: relative RMSE %.3f %%, bias %+.3f %% (+- %.3f %%), truth's error %.3f %%\n",
+                what.c_str(), 100 * e.relativeRmse, 100 * e.bias, 100 * e.biasError,
+                100 * e.truthError);
+    EXPECT_GT(e.texels, kTexels / 2) << what;
+    EXPECT_LT(e.relativeRmse, rmse) << what;
+    EXPECT_LT(std::abs(e.bias), 3 * e.biasError + bias) << what;
+}
+
+bool anywhere(std::size_t) {
+    return true;
+}
+
+BakeParams standardTransport(double texels) {
+    BakeParams p = presetParams("standard");
+    p.texelBudget = texels;
+    return p;
+}
+
+}  // namespace
+
+TEST(PathTracing, AgreesInTheCornellBox) {
+    const SolvedScene s(generateScene("cornell"), standardTransport(20000));
+    expectAgreement("cornell", errorAgainstPathTracing(s, anywhere), 0.02, 0.002);
+}
+
+TEST(PathTracing, AgreesInTwoRoomsAndInTheDarkOneApart) {
+    const SolvedScene s(generateScene("two-rooms"), standardTransport(25000));
+    const auto inDarkRoom = [&](std::size_t i) { return s.centre(i).x > 4.15f; };
+    expectAgreement("two-rooms", errorAgainstPathTracing(s, anywhere), 0.02, 0.002);
+    expectAgreement("its dark room", errorAgainstPathTracing(s, inDarkRoom), 0.05, 0.005);
+}
+
+TEST(PathTracing, AgreesInTheMirrorRoom) {
+    const SolvedScene s(generateScene("mirror-room", {3000}), standardTransport(25000));
+    expectAgreement("mirror-room", errorAgainstPathTracing(s, anywhere), 0.04, 0.003);
+}
+
+TEST(PathTracing, AgreesByTheCaustics) {
+    const SolvedScene s(generateScene("caustic"), standardTransport(25000));
+    const IrradianceError e = errorAgainstPathTracing(s, anywhere);
+    std::printf("caustic: relative RMSE %.3f %%, bias %+.3f %% (+- %.3f %%)\n",
+                100 * e.relativeRmse, 100 * e.bias, 100 * e.biasError);
+    EXPECT_LT(std::abs(e.bias), 3 * e.biasError + 0.01);
+}
+
+}  // namespace vlf::test
