@@ -68,7 +68,7 @@ Json toJson(const FieldCounts& c) {
             {"radianceCells", c.radianceCells},
             {"tileSize", c.tileSize},
             {"maxDistance", c.maxDistance},
-            {"tileBlocks", c.tileBlocks},
+            {"tileRows", c.tileRows},
             {"radianceElements", c.radianceElements},
             {"filledElements", c.filledElements}};
 }
@@ -164,7 +164,7 @@ void printLight(const FieldFileInfo& info) {
     printLine("texels", fmt::format("{} x {}, {:.2f} bytes each on disk", c.atlasWidth,
                                     c.atlasHeight, bytesPerTexel(info)));
     if (c.radianceLines == 0) {
-        printLine("radiance field", "none: the scene has no mirrors");
+        printLine("radiance field", "none");
         return;
     }
     printLine("radiance field",

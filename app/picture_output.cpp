@@ -24,12 +24,6 @@ std::string lowerExtension(const std::string& path) {
     return extension;
 }
 
-/// Empty if pictures can be written under this name, else what is wrong (a CLI11 validator).
-std::string pictureNameProblem(const std::string& path) {
-    const std::string extension = lowerExtension(path);
-    return extension == ".exr" || extension == ".png" ? "" : path + " must end in .exr or .png";
-}
-
 /// Empty if the text is an exposure, else what is wrong with it (a CLI11 validator).
 std::string exposureProblem(const std::string& text) {
     double value = 0;
@@ -40,12 +34,20 @@ std::string exposureProblem(const std::string& text) {
 
 }  // namespace
 
-void addPictureOptions(CLI::App& command, PictureOptions& options) {
+std::string pictureNameProblem(const std::string& path) {
+    const std::string extension = lowerExtension(path);
+    return extension == ".exr" || extension == ".png" ? "" : path + " must end in .exr or .png";
+}
+
+void addPictureOptions(CLI::App& command, PictureOptions& options, bool orReport) {
+    const auto nameProblem = [orReport](const std::string& path) {
+        return orReport && lowerExtension(path) == ".json" ? "" : pictureNameProblem(path);
+    };
     command
         .add_option("-o,--output", options.path,
                     "Picture to write: .exr (linear radiance) or .png (tone-mapped)")
         ->required()
-        ->check(pictureNameProblem, "picture name")
+        ->check(nameProblem, "picture name")
         ->type_name("FILE");
     command.add_option("--exposure", options.exposure, "EV applied to a .png; auto: middle grey")
         ->check(exposureProblem, "exposure")

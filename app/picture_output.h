@@ -17,8 +17,12 @@ struct PictureOptions {
     ToneCurve tone = ToneCurve::filmic;  ///< of a .png
 };
 
+/// Empty if pictures can be written under this name, else what is wrong (a CLI11 validator).
+std::string pictureNameProblem(const std::string& path);
+
 /// Declares -o/--output (required), --exposure and --tone. `options` must outlive the parsing.
-void addPictureOptions(CLI::App& command, PictureOptions& options);
+/// `orReport`: the output may be a .json as well.
+void addPictureOptions(CLI::App& command, PictureOptions& options, bool orReport = false);
 
 /// Throws FileError if the folder of `path` is missing: to be asked before long work.
 void requireFolderOf(const std::string& path);

@@ -113,6 +113,8 @@ void run(const Options& options, const Globals& globals) {
                                        options.samplesPerPixel, options.texels},
                                       globals);
     }
+    if (const std::string problem = pictureNameProblem(options.picture.path); !problem.empty())
+        throw CLI::ValidationError("--output", problem);
     for (const std::string& path : {options.picture.path, options.variance, options.json})
         requireFolderOf(path);
     const Scene scene = readScene(options, globals);
@@ -155,7 +157,7 @@ void addReference(CLI::App& app, const Globals& globals) {
         ->type_name("SCENE...");
     addCameraOptions(*command, options->camera);
     addLimits(*command, *options);
-    addPictureOptions(*command, options->picture);
+    addPictureOptions(*command, options->picture, true);
     command->add_option("--variance", options->variance,
                         "Write the variance of every pixel's mean (.exr)");
     command

@@ -29,7 +29,7 @@ void expectSameField(const LightField& a, const LightField& b) {
     EXPECT_EQ(a.record.energy.absorbed, b.record.energy.absorbed);
     ASSERT_EQ(a.radiance.elements.size(), b.radiance.elements.size());
     for (std::size_t i = 0; i < a.radiance.elements.size(); ++i) {
-        ASSERT_EQ(a.radiance.elements[i].rgb9e5, b.radiance.elements[i].rgb9e5);
+        ASSERT_EQ(a.radiance.elements[i].rgb9e5(), b.radiance.elements[i].rgb9e5());
         ASSERT_EQ(a.radiance.elements[i].distance, b.radiance.elements[i].distance);
     }
 }

@@ -33,7 +33,8 @@ TEST(FormFactor, OfPlatesThatSeeEachOtherByBundlesAlone) {
     b.quad({0, 0, 60}, {0, 5, 0}, {5, 0, 0}, lamp);
     BakeParams p = quickParams(0);
     p.texelSize = 0.05f;
-    p.cells = 4096;
+    p.cells = 2048;
+    p.directions = 2049;
     p.coarseCells = 1024;
     p.maxBounces = 1;
     const SolvedScene s(b.scene(), p);

@@ -24,9 +24,11 @@ TEST(SealedRoom, IsDarkInTheAtlasToo) {
     const float lit =
         static_cast<float>(s.meanIrradiance([&](std::size_t i) { return s.centre(i).x < 3.99f; }));
     const Unwrap& u = s.state.unwrap;
+    float worst = 0;
     for (std::size_t i = 0; i < u.texels.size(); ++i)
         if (s.centre(i).x > 4.01f + u.texelSize)
-            EXPECT_LT(luminance(s.field.atlas.irradiance[u.texels[i]]), 1e-3f * lit);
+            worst = std::max(worst, luminance(s.field.atlas.irradiance[u.texels[i]]));
+    EXPECT_LT(worst, 1e-3f * lit);
 }
 
 TEST(EnergyBalance, ClosedRoomsLoseNothing) {

@@ -5,27 +5,26 @@
 
 namespace vlf {
 
-const TileBlock* RadianceField::find(std::uint32_t direction, std::uint32_t chart) const {
-    const auto range = blocksOf(direction);
-    const auto it =
-        std::lower_bound(range.begin(), range.end(), chart,
-                         [](const TileBlock& block, std::uint32_t c) { return block.chart < c; });
-    return it != range.end() && it->chart == chart ? &*it : nullptr;
+std::span<const TileRow> RadianceField::rowsOf(std::uint32_t direction, std::uint32_t chart) const {
+    const auto all = rowsOf(direction);
+    const auto first =
+        std::lower_bound(all.begin(), all.end(), chart,
+                         [](const TileRow& row, std::uint32_t c) { return row.chart < c; });
+    auto last = first;
+    while (last != all.end() && last->chart == chart) ++last;
+    return {first, last};
 }
 
-std::uint64_t RadianceField::index(const TileBlock& block, int x, int y) const {
-    const int m = tileSize;
-    const int column = x - block.tileX * m, row = y - block.tileY * m;
-    const std::uint64_t tile = static_cast<std::uint64_t>(row / m) * block.tilesWide + column / m;
-    return block.firstElement + tile * m * m + (row % m) * m + column % m;
-}
-
-const RadianceElement* RadianceField::element(const TileBlock& block, int x, int y) const {
-    const int m = tileSize;
-    const int column = x - block.tileX * m, row = y - block.tileY * m;
-    if (column < 0 || row < 0 || column >= block.tilesWide * m || row >= block.tilesHigh * m)
-        return nullptr;
-    return &elements[index(block, x, y)];
+std::uint64_t RadianceField::index(std::span<const TileRow> rowsOfChart, int x, int y) const {
+    const int shift = std::countr_zero(static_cast<unsigned>(tileSize)), mask = tileSize - 1;
+    if (rowsOfChart.empty() || x < 0 || y < 0) return kNoElement;
+    const int r = (y >> shift) - rowsOfChart.front().tileY;
+    if (r < 0 || r >= static_cast<int>(rowsOfChart.size())) return kNoElement;
+    const TileRow& row = rowsOfChart[static_cast<std::size_t>(r)];
+    const int tile = (x >> shift) - row.tileX;
+    if (tile < 0 || tile >= row.tilesWide) return kNoElement;
+    return row.firstElement + (static_cast<std::uint64_t>(tile) << 2 * shift) +
+           static_cast<std::uint64_t>((y & mask) << shift | (x & mask));
 }
 
 namespace {
@@ -40,7 +39,9 @@ int floorLog2(float v) {
     return static_cast<int>(std::bit_cast<std::uint32_t>(v) >> 23) - 127;
 }
 
-std::uint32_t roundToNearest(double v) { return static_cast<std::uint32_t>(v + 0.5); }
+std::uint32_t roundToNearest(double v) {
+    return static_cast<std::uint32_t>(v + 0.5);
+}
 
 }  // namespace
 

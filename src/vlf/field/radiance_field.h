@@ -15,45 +15,61 @@
 
 namespace vlf {
 
-/// What one cell stores about one chart.
+/// What one cell stores about one chart. Six bytes: radiance in two halves.
 struct RadianceElement {
-    std::uint32_t rgb9e5 = 0;    ///< radiance with shared exponent (EXT_texture_shared_exponent)
-    std::uint16_t distance = 0;  ///< of 65535ths of the longest distance; 0: this cell is not the chart's
-};
+    std::uint16_t rgb9e5Low = 0, rgb9e5High = 0;
+    std::uint16_t distance =
+        0;  ///< of 65535ths of the longest distance; 0: this cell is not the chart's
 
-/// The rectangle of tiles that one chart's projection covers in one subfield.
-struct TileBlock {
+    RadianceElement() = default;
+    RadianceElement(std::uint32_t rgb9e5, std::uint16_t d)
+        : rgb9e5Low(static_cast<std::uint16_t>(rgb9e5)),
+          rgb9e5High(static_cast<std::uint16_t>(rgb9e5 >> 16)),
+          distance(d) {}
+
+    /// Radiance with shared exponent (EXT_texture_shared_exponent).
+    std::uint32_t rgb9e5() const { return rgb9e5Low | std::uint32_t{rgb9e5High} << 16; }
+};
+static_assert(sizeof(RadianceElement) == 6);
+
+/// A run of tiles within one row of tiles: those that one chart's projection touches there.
+struct TileRow {
     std::uint32_t chart = kNoChart;
-    std::uint16_t tileX = 0, tileY = 0;      ///< first tile
-    std::uint16_t tilesWide = 0, tilesHigh = 0;
-    std::uint64_t firstElement = 0;  ///< tiles row by row, m² elements each, cells row by row
+    std::uint16_t tileX = 0, tileY = 0;  ///< first tile
+    std::uint16_t tilesWide = 0;
+    std::uint64_t firstElement = 0;  ///< tile by tile, m² elements each, cells row by row
 };
 
 struct RadianceField {
-    int lines = 0;            ///< of the direction set; 0: the field is empty
-    int cells = 0;            ///< N
-    int tileSize = 0;         ///< m
-    float maxDistance = 0;    ///< metres that distance 65535 stands for
+    int lines = 0;          ///< of the direction set; 0: the field is empty
+    int cells = 0;          ///< N
+    int tileSize = 0;       ///< m, a power of two
+    float maxDistance = 0;  ///< metres that distance 65535 stands for
 
-    /// Blocks of oriented direction i are blocks[firstBlock[i]] .. blocks[firstBlock[i + 1]], one
-    /// per chart at most, sorted by chart.
-    std::vector<std::uint32_t> firstBlock;
-    std::vector<TileBlock> blocks;
+    /// Rows of oriented direction i are rows[firstRow[i]] .. rows[firstRow[i + 1]], sorted by chart
+    /// and then by tileY; those of one chart have consecutive tileY.
+    std::vector<std::uint32_t> firstRow;
+    std::vector<TileRow> rows;
     std::vector<RadianceElement> elements;
 
     bool empty() const { return lines == 0; }
-    std::span<const TileBlock> blocksOf(std::uint32_t direction) const {
-        return {blocks.data() + firstBlock[direction],
-                blocks.data() + firstBlock[direction + 1]};
+    std::span<const TileRow> rowsOf(std::uint32_t direction) const {
+        return {rows.data() + firstRow[direction], rows.data() + firstRow[direction + 1]};
     }
-    /// The block of `chart` in `direction`, or nullptr.
-    const TileBlock* find(std::uint32_t direction, std::uint32_t chart) const;
+    /// The rows of `chart` in `direction`; empty if it has none.
+    std::span<const TileRow> rowsOf(std::uint32_t direction, std::uint32_t chart) const;
 
-    /// Index of the element of cell (x, y), which lies in one of the block's tiles.
-    std::uint64_t index(const TileBlock& block, int x, int y) const;
+    std::uint64_t tileElements() const { return static_cast<std::uint64_t>(tileSize) * tileSize; }
 
-    /// The element of cell (x, y), or nullptr where the block does not reach.
-    const RadianceElement* element(const TileBlock& block, int x, int y) const;
+    static constexpr std::uint64_t kNoElement = ~0ull;
+    /// Index of the element of cell (x, y), or kNoElement where the rows of the chart do not reach.
+    std::uint64_t index(std::span<const TileRow> rowsOfChart, int x, int y) const;
+
+    /// That element, or nullptr.
+    const RadianceElement* element(std::span<const TileRow> rowsOfChart, int x, int y) const {
+        const std::uint64_t i = index(rowsOfChart, x, y);
+        return i == kNoElement ? nullptr : &elements[i];
+    }
 };
 
 /// Shared-exponent packing of non-negative radiance; the error is below 1/512 of the largest

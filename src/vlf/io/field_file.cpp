@@ -16,9 +16,9 @@ namespace vlf {
 namespace {
 
 constexpr std::array<std::string_view, 18> kChunks = {
-    "summary",       "meshes",          "materials",  "cameras",   "textures",    "pixels.srgb8",
-    "pixels.linear", "positions",       "normals",    "uvs",       "triangles",   "bake",
-    "charts",        "triangle charts", "irradiance", "subfields", "tile blocks", "radiance"};
+    "summary",       "meshes",          "materials",  "cameras",   "textures",  "pixels.srgb8",
+    "pixels.linear", "positions",       "normals",    "uvs",       "triangles", "bake",
+    "charts",        "triangle charts", "irradiance", "subfields", "tile rows", "radiance"};
 
 /// The chunk "summary": the sizes of all arrays, and where the field lies.
 struct Summary {
@@ -57,7 +57,7 @@ FieldCounts countsOf(const BakedRoom& room) {
             .radianceCells = radiance.cells,
             .tileSize = radiance.tileSize,
             .maxDistance = radiance.maxDistance,
-            .tileBlocks = radiance.blocks.size(),
+            .tileRows = radiance.rows.size(),
             .radianceElements = radiance.elements.size(),
             .filledElements = static_cast<std::uint64_t>(filled)};
 }
@@ -79,7 +79,7 @@ Summary readSummary(const ChunkFileReader& file) {
     readRecord(file, "summary", summary);
     const FieldCounts& c = summary.counts;
     constexpr std::uint64_t kMaxCount = 0xffffffff;  // of what 32-bit indices can reach
-    const bool countable = std::max({c.vertices, c.triangles, c.charts, c.tileBlocks}) < kMaxCount;
+    const bool countable = std::max({c.vertices, c.triangles, c.charts, c.tileRows}) < kMaxCount;
     if (!countable || c.radianceLines < 0 || !isFinite(summary.frame.centre) ||
         !std::isfinite(summary.frame.radius))
         throw InputError({file.path(), 0, "chunk summary"}, "impossible numbers: bake it again");

@@ -37,7 +37,7 @@ struct FieldCounts {
     std::uint32_t atlasWidth = 0, atlasHeight = 0;  ///< texels
     int radianceLines = 0, radianceCells = 0, tileSize = 0;
     float maxDistance = 0;  ///< metres
-    std::uint64_t tileBlocks = 0;
+    std::uint64_t tileRows = 0;
     std::uint64_t radianceElements = 0;
     std::uint64_t filledElements = 0;  ///< with a distance above 0
 

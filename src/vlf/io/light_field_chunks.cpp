@@ -14,7 +14,7 @@ namespace {
 /// Irradiance: green, red - green, blue - green, of channels of 12 significant bits.
 using IrradianceCodec = GridCodec<std::uint32_t, 3, 3>;
 using ChartCodec = GridCodec<std::uint32_t, 17>;
-using TileBlockCodec = GridCodec<std::uint32_t, 5>;
+using TileRowCodec = GridCodec<std::uint32_t, 4>;
 
 constexpr int kDroppedBits = 12;            ///< of a float's 23 mantissa bits
 constexpr std::uint32_t kChroma = 1 << 20;  ///< keeps differences of channels positive
@@ -56,23 +56,22 @@ Chart decodeChart(const ChartCodec::Element& words) {
     return chart;
 }
 
-TileBlockCodec::Element encodeTileBlock(const TileBlock& b) {
-    return {b.chart, b.tileX, b.tileY, b.tilesWide, b.tilesHigh};
+TileRowCodec::Element encodeTileRow(const TileRow& row) {
+    return {row.chart, row.tileX, row.tileY, row.tilesWide};
 }
 
-TileBlock decodeTileBlock(const TileBlockCodec::Element& words) {
-    TileBlock block;
-    block.chart = words[0];
-    block.tileX = static_cast<std::uint16_t>(words[1]);
-    block.tileY = static_cast<std::uint16_t>(words[2]);
-    block.tilesWide = static_cast<std::uint16_t>(words[3]);
-    block.tilesHigh = static_cast<std::uint16_t>(words[4]);
-    return block;
+TileRow decodeTileRow(const TileRowCodec::Element& words) {
+    TileRow row;
+    row.chart = words[0];
+    row.tileX = static_cast<std::uint16_t>(words[1]);
+    row.tileY = static_cast<std::uint16_t>(words[2]);
+    row.tilesWide = static_cast<std::uint16_t>(words[3]);
+    return row;
 }
 
 void addRadiance(ChunkFileWriter& file, const RadianceField& radiance) {
-    addArray(file, "subfields", radiance.firstBlock);
-    addGrid<TileBlockCodec>(file, "tile blocks", radiance.blocks, 1, encodeTileBlock);
+    addArray(file, "subfields", radiance.firstRow);
+    addGrid<TileRowCodec>(file, "tile rows", radiance.rows, 1, encodeTileRow);
     const TileGroups groups(radiance);
     file.add("radiance", groups.count(), [&](std::size_t g) {
         return Block{groups.encode(g), groups.groupElements(g) * sizeof(RadianceElement)};
@@ -80,11 +79,10 @@ void addRadiance(ChunkFileWriter& file, const RadianceField& radiance) {
 }
 
 void setFirstElements(RadianceField& radiance) {
-    const auto tile = static_cast<std::uint64_t>(radiance.tileSize) * radiance.tileSize;
     std::uint64_t next = 0;
-    for (TileBlock& block : radiance.blocks) {
-        block.firstElement = next;
-        next += tile * block.tilesWide * block.tilesHigh;
+    for (TileRow& row : radiance.rows) {
+        row.firstElement = next;
+        next += radiance.tileElements() * row.tilesWide;
     }
 }
 
@@ -106,9 +104,8 @@ RadianceField readRadiance(const ChunkFileReader& file, const FieldCounts& count
     radiance.tileSize = counts.tileSize;
     radiance.maxDistance = counts.maxDistance;
     const std::uint64_t directions = 2 * static_cast<std::uint64_t>(radiance.lines);
-    readArray(file, "subfields", radiance.firstBlock, radiance.empty() ? 0 : directions + 1);
-    readGrid<TileBlockCodec>(file, "tile blocks", radiance.blocks, {1, counts.tileBlocks},
-                             decodeTileBlock);
+    readArray(file, "subfields", radiance.firstRow, radiance.empty() ? 0 : directions + 1);
+    readGrid<TileRowCodec>(file, "tile rows", radiance.rows, {1, counts.tileRows}, decodeTileRow);
     checkRadianceLayout(radiance, counts.charts, file.path());
     setFirstElements(radiance);
     readElements(file, radiance);

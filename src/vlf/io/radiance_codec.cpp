@@ -26,9 +26,20 @@ std::uint16_t toBfloat16(float value) {
     return static_cast<std::uint16_t>((bits + 0x7fff + (bits >> 16 & 1)) >> 16);
 }
 
-float fromBfloat16(std::uint32_t code) {
-    constexpr std::uint32_t kLargest = 0x7f7f;
-    return std::bit_cast<float>(std::min(code & 0x7fff, kLargest) << 16);
+/// Three bfloat16 as RGB9E5, whose mantissas have a bit more than the largest of them needs.
+std::uint32_t toRgb9e5(std::uint16_t red, std::uint16_t green, std::uint16_t blue) {
+    constexpr std::uint32_t kLeastExponent = 111;  // of 2⁻¹⁶, with the bias of a float
+    constexpr std::uint16_t kLargest = 0x477f;     // 65280
+    const auto bounded = [&](std::uint16_t code) -> std::uint32_t {
+        return std::min<std::uint16_t>(code & 0x7fff, kLargest);
+    };
+    const std::uint32_t r = bounded(red), g = bounded(green), b = bounded(blue);
+    const std::uint32_t exponent = std::max(std::max(r, std::max(g, b)) >> 7, kLeastExponent);
+    const auto mantissa = [&](std::uint32_t code) {
+        const std::uint32_t shift = std::min(exponent - (code >> 7), 15u);
+        return (2 * ((code & 127) | 128) + (1u << shift >> 1)) >> shift;
+    };
+    return mantissa(r) | mantissa(g) << 9 | mantissa(b) << 18 | (exponent - kLeastExponent) << 27;
 }
 
 Code toCode(const Vec3& radiance, std::uint16_t distance) {
@@ -41,16 +52,18 @@ Code toCode(const Vec3& radiance, std::uint16_t distance) {
 }
 
 RadianceElement fromCode(const Code& code) {
-    const auto channel = [&](int i) { return fromBfloat16(code[1] + code[i] - kChroma); };
-    return {packRgb9e5({channel(2), fromBfloat16(code[1]), channel(3)}),
+    const auto channel = [&](int i) {
+        return static_cast<std::uint16_t>(code[1] + code[i] - kChroma);
+    };
+    return {toRgb9e5(channel(2), code[1], channel(3)),
             static_cast<std::uint16_t>(code[0] << kDistanceShift)};
 }
 
 /// The code of an element that a reader will turn into an element of the same code: rounding the
 /// brightest channel up may raise the shared exponent, which rounds the others once more.
 Code stableCode(const RadianceElement& element) {
-    const RadianceElement once = fromCode(toCode(unpackRgb9e5(element.rgb9e5), element.distance));
-    return toCode(unpackRgb9e5(once.rgb9e5), element.distance);
+    const RadianceElement once = fromCode(toCode(unpackRgb9e5(element.rgb9e5()), element.distance));
+    return toCode(unpackRgb9e5(once.rgb9e5()), element.distance);
 }
 
 /// The codes of one tile with the last column, row and corner of its left, upper and upper left
@@ -107,13 +120,6 @@ Code difference(const Code& code, const Code& prediction) {
     return residual;
 }
 
-Code sum(const Code& prediction, const Code& residual) {
-    Code code;
-    for (int c = 0; c < 4; ++c)
-        code[c] = static_cast<std::uint16_t>(prediction[c] + unzigzag(residual[c]));
-    return code;
-}
-
 /// High bytes of the four members, one member after the other, then the low bytes.
 void appendPlanes(std::vector<std::uint8_t>& bytes, const std::vector<Code>& residuals) {
     for (const int shift : {8, 0})
@@ -122,13 +128,13 @@ void appendPlanes(std::vector<std::uint8_t>& bytes, const std::vector<Code>& res
                 bytes.push_back(static_cast<std::uint8_t>(residual[c] >> shift));
 }
 
-Code residualAt(std::span<const std::uint8_t> planes, std::size_t i) {
-    const std::size_t count = planes.size() / sizeof(Code);
-    Code residual;
-    for (int c = 0; c < 4; ++c)
-        residual[c] =
-            static_cast<std::uint16_t>(planes[c * count + i] << 8 | planes[(c + 4) * count + i]);
-    return residual;
+/// The differences of which appendPlanes() wrote the residuals, one member after the other.
+std::vector<std::uint16_t> differencesOf(std::span<const std::uint8_t> planes) {
+    std::vector<std::uint16_t> differences(planes.size() / 2);
+    for (std::size_t i = 0; i < differences.size(); ++i)
+        differences[i] =
+            unzigzag(static_cast<std::uint16_t>(planes[i] << 8 | planes[differences.size() + i]));
+    return differences;
 }
 
 }  // namespace
@@ -136,31 +142,40 @@ Code residualAt(std::span<const std::uint8_t> planes, std::size_t i) {
 /// Where a tile lies, and the steps back in the order of tiles to its neighbours; 0: none.
 struct TileGroups::Tile {
     std::uint64_t firstElement = 0;
-    std::uint64_t toLeft = 0, toUp = 0;
+    std::uint64_t toLeft = 0, toUp = 0, toUpperLeft = 0;
 };
 
 TileGroups::TileGroups(const RadianceField& field)
     : field_(field),
-      tileElements_(static_cast<std::uint64_t>(field.tileSize) * field.tileSize),
+      tileElements_(field.tileElements()),
       groupTiles_(kGroupElements / std::clamp<std::uint64_t>(tileElements_, 1, kGroupElements)),
       firstTile_{0} {
-    firstTile_.reserve(field.blocks.size() + 1);
-    for (const TileBlock& block : field.blocks)
-        firstTile_.push_back(firstTile_.back() +
-                             static_cast<std::uint64_t>(block.tilesWide) * block.tilesHigh);
+    firstTile_.reserve(field.rows.size() + 1);
+    for (const TileRow& row : field.rows) firstTile_.push_back(firstTile_.back() + row.tilesWide);
 }
 
 std::uint64_t TileGroups::groupElements(std::uint64_t g) const {
     return std::min(groupTiles_, tileCount() - g * groupTiles_) * tileElements_;
 }
 
+std::uint64_t TileGroups::stepsUp(std::size_t r, int tileX) const {
+    if (r == 0) return 0;
+    const TileRow &row = field_.rows[r], &up = field_.rows[r - 1];
+    if (up.chart != row.chart || up.tileY + 1 != row.tileY) return 0;
+    const int column = tileX - up.tileX;
+    if (column < 0 || column >= up.tilesWide) return 0;
+    return up.tilesWide - static_cast<std::uint64_t>(column);
+}
+
 TileGroups::Tile TileGroups::tileAt(std::uint64_t index) const {
     const auto after = std::upper_bound(firstTile_.begin(), firstTile_.end(), index);
-    const auto b = static_cast<std::size_t>(after - firstTile_.begin()) - 1;
-    const TileBlock& block = field_.blocks[b];
-    const std::uint64_t inBlock = index - firstTile_[b];
-    return {block.firstElement + inBlock * tileElements_, inBlock % block.tilesWide > 0 ? 1u : 0u,
-            inBlock >= block.tilesWide ? block.tilesWide : 0u};
+    const auto r = static_cast<std::size_t>(after - firstTile_.begin()) - 1;
+    const TileRow& row = field_.rows[r];
+    const std::uint64_t column = index - firstTile_[r];
+    const int x = row.tileX + static_cast<int>(column);
+    const std::uint64_t up = stepsUp(r, x), upperLeft = stepsUp(r, x - 1);
+    return {row.firstElement + column * tileElements_, column > 0 ? 1u : 0u,
+            up > 0 ? up + column : 0, upperLeft > 0 ? upperLeft + column : 0};
 }
 
 /// Calls visit(i, prediction), which returns the code of the group's element i, in order.
@@ -175,7 +190,7 @@ void TileGroups::visitPredicted(std::uint64_t g, const Visit& visit) const {
             return back > 0 && back <= t ? &codes[(t - back) * tileElements_] : nullptr;
         };
         tile.setBorder(neighbour(place.toLeft), neighbour(place.toUp),
-                       neighbour(place.toUp + place.toLeft));
+                       neighbour(place.toUpperLeft));
         for (int y = 0; y < m; ++y)
             for (int x = 0; x < m; ++x, ++i)
                 codes[i] = tile.at(x, y) = visit(i, tile.predict(x, y));
@@ -214,10 +229,15 @@ bool TileGroups::decode(std::uint64_t g, std::span<const std::uint8_t> bytes,
     if (bytes.size() < maskBytes) return false;
     const auto mask = bytes.first(maskBytes), planes = bytes.subspan(maskBytes);
     if (planes.size() != countBits(mask) * sizeof(Code)) return false;
+    const std::vector<std::uint16_t> differences = differencesOf(planes);
+    const std::size_t filled = differences.size() / 4;
     std::size_t next = 0;
     visitPredicted(g, [&](std::uint64_t i, const Code& prediction) {
         if (!bit(mask, i)) return prediction;
-        const Code code = sum(prediction, residualAt(planes, next++));
+        Code code;
+        for (std::size_t c = 0; c < 4; ++c)
+            code[c] = static_cast<std::uint16_t>(prediction[c] + differences[c * filled + next]);
+        ++next;
         elements[i] = fromCode(code);
         return code;
     });

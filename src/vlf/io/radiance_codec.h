@@ -13,7 +13,7 @@ namespace vlf {
 /// Largest m; a tile then fills half a block.
 inline constexpr int kMaxTileSize = 256;
 
-/// The tiles of all blocks of a field in order, cut into groups that are coded independently.
+/// The tiles of all rows of a field in order, cut into groups that are coded independently.
 class TileGroups {
   public:
     /// Precondition: the layout is valid (checkRadianceLayout). Keeps a reference to `field`.
@@ -31,7 +31,7 @@ class TileGroups {
     /// longest.
     std::vector<std::uint8_t> encode(std::uint64_t g) const;
 
-    /// The inverse, into the elements of a field whose blocks lie one after the other in `all`.
+    /// The inverse, into the elements of a field whose rows lie one after the other in `all`.
     /// Returns false if the bytes cannot be a group's.
     bool decode(std::uint64_t g, std::span<const std::uint8_t> bytes,
                 std::span<RadianceElement> all) const;
@@ -40,12 +40,14 @@ class TileGroups {
     struct Tile;
     template <class Visit>
     void visitPredicted(std::uint64_t g, const Visit& visit) const;
+    /// From the start of row r back to the tile of the row above at tileX; 0: it has none.
+    std::uint64_t stepsUp(std::size_t r, int tileX) const;
     Tile tileAt(std::uint64_t index) const;
     std::vector<RadianceElement> gather(std::uint64_t g) const;
 
     const RadianceField& field_;
     std::uint64_t tileElements_, groupTiles_;
-    std::vector<std::uint64_t> firstTile_;  ///< of each block, and the number of all
+    std::vector<std::uint64_t> firstTile_;  ///< of each row, and the number of all
 };
 
 }  // namespace vlf

@@ -46,7 +46,7 @@ template <class S>
 void describe(S& s, Field<S, FieldCounts> c) {
     s(c.vertices, c.triangles, c.meshes, c.materials, c.textures, c.texturePixels, c.cameras);
     s(c.charts, c.atlasWidth, c.atlasHeight, c.radianceLines, c.radianceCells, c.tileSize);
-    s(c.maxDistance, c.tileBlocks, c.radianceElements, c.filledElements);
+    s(c.maxDistance, c.tileRows, c.radianceElements, c.filledElements);
 }
 
 /// Texture without its pixels.

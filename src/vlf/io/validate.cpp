@@ -5,6 +5,7 @@
 #include "vlf/io/radiance_codec.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace vlf {
@@ -108,14 +109,18 @@ bool isDirectionCount(int lines) {
     return false;
 }
 
-void checkTileBlock(const RadianceField& radiance, std::size_t b, std::size_t charts,
-                    const Checker& check) {
-    const TileBlock& block = radiance.blocks[b];
+void checkTileRow(const RadianceField& radiance, std::size_t r, std::size_t charts,
+                  const Checker& check) {
+    const TileRow& row = radiance.rows[r];
     const int tiles = (radiance.cells + radiance.tileSize - 1) / radiance.tileSize;
-    check(block.chart < charts, b, "refers to a chart that does not exist");
-    check(block.tilesWide > 0 && block.tilesHigh > 0, b, "is empty");
-    check(block.tileX + block.tilesWide <= tiles && block.tileY + block.tilesHigh <= tiles, b,
-          "lies outside its subfield");
+    check(row.chart < charts, r, "refers to a chart that does not exist");
+    check(row.tilesWide > 0, r, "is empty");
+    check(row.tileX + row.tilesWide <= tiles && row.tileY < tiles, r, "lies outside its subfield");
+}
+
+/// Whether row b may follow row a within one direction.
+bool follows(const TileRow& a, const TileRow& b) {
+    return a.chart < b.chart || (a.chart == b.chart && a.tileY + 1 == b.tileY);
 }
 
 }  // namespace
@@ -168,38 +173,37 @@ void checkAtlas(const IrradianceAtlas& atlas, const std::string& path) {
 
 void checkRadianceLayout(const RadianceField& radiance, std::size_t charts,
                          const std::string& path) {
-    const Checker sizes(path, "summary"), check(path, "tile blocks"), order(path, "subfields");
+    const Checker sizes(path, "summary"), check(path, "tile rows"), order(path, "subfields");
     if (radiance.empty()) {
-        check(radiance.blocks.empty() && radiance.elements.empty(), "has blocks but no directions");
+        check(radiance.rows.empty() && radiance.elements.empty(), "has rows but no directions");
         return;
     }
     sizes(isDirectionCount(radiance.lines), "has a number of directions that is no direction set");
-    sizes(radiance.tileSize >= 1 && radiance.tileSize <= kMaxTileSize,
-          "has a tile size outside 1 to 256");
+    sizes(radiance.tileSize >= 1 && radiance.tileSize <= kMaxTileSize &&
+              std::has_single_bit(static_cast<unsigned>(radiance.tileSize)),
+          "has a tile size that is no power of two from 1 to 256");
     sizes(radiance.cells >= 1 && radiance.cells <= 65535, "has cells outside 1 to 65535");
     sizes(std::isfinite(radiance.maxDistance) && radiance.maxDistance >= 0,
           "has a longest distance that is not finite or negative");
-    const auto& first = radiance.firstBlock;
+    const auto& first = radiance.firstRow;
     order(first.size() == 2 * static_cast<std::size_t>(radiance.lines) + 1, "has a wrong length");
-    order(first.front() == 0 && first.back() == radiance.blocks.size() &&
+    order(first.front() == 0 && first.back() == radiance.rows.size() &&
               std::is_sorted(first.begin(), first.end()),
-          "does not cover the blocks");
-    for (std::size_t b = 0; b < radiance.blocks.size(); ++b)
-        checkTileBlock(radiance, b, charts, check);
+          "does not cover the rows");
+    for (std::size_t r = 0; r < radiance.rows.size(); ++r) checkTileRow(radiance, r, charts, check);
     for (std::size_t d = 0; d + 1 < first.size(); ++d)
-        for (std::size_t b = first[d] + 1; b < first[d + 1]; ++b)
-            check(radiance.blocks[b - 1].chart < radiance.blocks[b].chart, b, "is not sorted");
+        for (std::size_t r = first[d] + 1; r < first[d + 1]; ++r)
+            check(follows(radiance.rows[r - 1], radiance.rows[r]), r, "is out of order");
 }
 
 void checkRadianceElements(const RadianceField& radiance, const std::string& path) {
-    const Checker check(path, "tile blocks");
-    const auto tile = static_cast<std::uint64_t>(radiance.tileSize) * radiance.tileSize;
-    for (std::size_t b = 0; b < radiance.blocks.size(); ++b) {
-        const TileBlock& block = radiance.blocks[b];
-        const std::uint64_t count = tile * block.tilesWide * block.tilesHigh;
-        check(block.firstElement <= radiance.elements.size() &&
-                  count <= radiance.elements.size() - block.firstElement,
-              b, "refers to elements that do not exist");
+    const Checker check(path, "tile rows");
+    for (std::size_t r = 0; r < radiance.rows.size(); ++r) {
+        const TileRow& row = radiance.rows[r];
+        const std::uint64_t count = radiance.tileElements() * row.tilesWide;
+        check(row.firstElement <= radiance.elements.size() &&
+                  count <= radiance.elements.size() - row.firstElement,
+              r, "refers to elements that do not exist");
     }
 }
 

@@ -4,6 +4,7 @@
 #include "vlf/base/parallel.h"
 #include "vlf/propagate/direct_light.h"
 #include "vlf/propagate/fill_atlas.h"
+#include "vlf/propagate/radiance_bake.h"
 
 #include <algorithm>
 #include <chrono>
@@ -83,6 +84,22 @@ void checkParams(const BakeParams& p) {
     if (p.directSamples < 1) throw InputError("direct light needs at least one sample");
 }
 
+bool hasMirrors(const Scene& scene, const std::vector<Chart>& charts) {
+    return std::any_of(charts.begin(), charts.end(), [&](const Chart& chart) {
+        return scene.materials[chart.material].isMirror();
+    });
+}
+
+void addRadianceField(BakeState& state, LightField& field, Progress& progress) {
+    const BakeParams& p = state.params;
+    if (p.radianceDirections == 0 || !hasMirrors(state.scene, field.charts)) return;
+    field.radiance = timed(state.report, progress, "radiance field", [&] {
+        return bakeRadiance(state.scene, state.rays, field,
+                            {p.radianceDirections, p.radianceCells, p.tileSize}, progress);
+    });
+    state.report.radianceElements = field.radiance.elements.size();
+}
+
 }  // namespace
 
 BakeParams presetParams(const std::string& name) {
@@ -92,14 +109,14 @@ BakeParams presetParams(const std::string& name) {
         p.directions = 129;
         p.cells = 256;
         p.texelBudget = 20000;
-        p.directSamples = 4;
+        p.directSamples = 2;
         p.tolerance = 5e-3;
         p.radianceDirections = 513;
         p.radianceCells = 128;
     } else if (name == "high") {
         p.directions = 8193;
         p.texelBudget = 150000;
-        p.directSamples = 64;
+        p.directSamples = 32;
         p.tolerance = 2e-4;
         p.radianceCells = 512;
     } else if (name != "standard") {
@@ -134,6 +151,7 @@ LightField finish(BakeState& state, Progress& progress) {
     field.charts = state.unwrap.charts;
     field.triangleCharts = state.unwrap.triangleCharts;
     field.atlas = timed(state.report, progress, "atlas", [&] { return fillAtlas(state); });
+    addRadianceField(state, field, progress);
     state.report.energy = energyBalance(state);
     BakeRecord& r = field.record;
     r.preset = state.params.preset;
@@ -141,6 +159,9 @@ LightField finish(BakeState& state, Progress& progress) {
     r.seed = state.params.seed;
     r.directions = state.params.directions;
     r.cells = state.params.cells;
+    r.radianceDirections = field.radiance.lines;
+    r.radianceCells = field.radiance.cells;
+    r.tileSize = field.radiance.tileSize;
     r.texelSize = state.unwrap.texelSize;
     r.directSamples = state.params.directSamples;
     r.bounces = state.report.sweeps;

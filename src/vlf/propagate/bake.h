@@ -23,14 +23,14 @@ struct BakeParams {
     int cells = 512;       ///< N: rays along one side of a bundle
     float texelSize = 0;   ///< metres; 0: from texelBudget
     double texelBudget = 75000;
-    int directSamples = 8;       ///< shadow rays per texel outside penumbrae
+    int directSamples = 4;       ///< shadow rays per texel outside penumbrae
     int coarseDirections = 129;  ///< of the sweeps before the last
     int coarseCells = 128;
     int maxBounces = 0;             ///< 0: until converged
     double tolerance = 1e-3;        ///< of the light still missing, relative
     int radianceDirections = 2049;  ///< of the radiance field of mirror charts; 0: none
     int radianceCells = 256;
-    int tileSize = 16;  ///< m
+    int tileSize = 8;               ///< m, a power of two
     std::uint64_t seed = 0;
 };
 

@@ -25,7 +25,7 @@ constexpr std::size_t kTexelsPerBlock = 64;
 // samples of the first, the more the larger its standard error; and the standard error (relative
 // to the texel's light and the room's) that calls for it.
 constexpr int kRefinement = 6, kMaxRefinement = 48;
-constexpr float kRefineAbove = 0.004f, kRefineTo = 0.008f;
+constexpr float kRefineAbove = 0.004f, kRefineTo = 0.025f;
 constexpr float kRoomShare = 0.3f;
 constexpr float kShadowEdge = 0.25f;  // relative step between neighbours that counts as an edge
 

@@ -13,7 +13,7 @@
 namespace vlf {
 
 struct DirectLightParams {
-    int samples = 8;  ///< shadow rays per texel, shared among the lights by their likely effect;
+    int samples = 4;  ///< shadow rays per texel, shared among the lights by their likely effect;
                       ///< penumbrae take several times as many
     std::uint64_t seed = 0;
 };

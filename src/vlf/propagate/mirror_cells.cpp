@@ -43,6 +43,23 @@ struct MirrorCellFinder::Projected {
         return {clampCell(lo.x), clampCell(lo.y), clampCell(hi.x + 1), clampCell(hi.y + 1)};
     }
 
+    /// Smallest and largest x within kGuard of the triangle's part with y in [low, high].
+    Vec2 extent(float low, float high) const {
+        Vec2 x(Candidate::kNone, -Candidate::kNone);
+        const auto add = [&](float v) {
+            x = {std::min(x.x, v - kGuard), std::max(x.y, v + kGuard)};
+        };
+        for (int i = 0; i < 3; ++i) {
+            const Vec2 &a = corner[i], &b = corner[(i + 1) % 3];
+            if (std::max(a.y, b.y) < low || std::min(a.y, b.y) > high) continue;
+            for (const float y : {low, high})
+                add(glm::mix(a.x, b.x,
+                             a.y == b.y ? 0.0f : std::clamp((y - a.y) / (b.y - a.y), 0.0f, 1.0f)));
+            if (a.y == b.y) add(b.x);
+        }
+        return x;
+    }
+
     /// Whether the square of half-width kGuard around p overlaps; p lies in the grown rectangle.
     bool guards(const Vec2& p) const {
         const float turn = area > 0 ? 1.0f : -1.0f;
@@ -115,18 +132,44 @@ bool MirrorCellFinder::project(const MirrorChart::Side& side, const ParallelSubf
     return std::abs(projected.area) > 1e-12f;
 }
 
-CellRange MirrorCellFinder::range(const MirrorChart& chart, const ParallelSubfield& subfield,
-                                  const Vec3& toEye) const {
-    CellRange all;
+MirrorCellFinder::CellRange MirrorCellFinder::range(const MirrorChart& chart,
+                                                    const ParallelSubfield& subfield,
+                                                    const Vec3& toEye) const {
+    CellRange all{subfield.cells, subfield.cells, 0, 0};
     Projected triangle;
     for (const MirrorChart::Side& side : chart.sides) {
         if (!project(side, subfield, toEye, triangle)) continue;
         const CellRange r = triangle.range(subfield.cells);
-        all = all.empty() ? r
-                          : CellRange{std::min(all.x0, r.x0), std::min(all.y0, r.y0),
-                                      std::max(all.x1, r.x1), std::max(all.y1, r.y1)};
+        all = {std::min(all.x0, r.x0), std::min(all.y0, r.y0), std::max(all.x1, r.x1),
+               std::max(all.y1, r.y1)};
     }
     return all;
+}
+
+TileCover MirrorCellFinder::tiles(const MirrorChart& chart, const ParallelSubfield& subfield,
+                                  const Vec3& toEye, int m) const {
+    const CellRange all = range(chart, subfield, toEye);
+    TileCover cover;
+    if (all.x0 >= all.x1 || all.y0 >= all.y1) return cover;
+    cover.firstRow = all.y0 / m;
+    cover.spans.assign((all.y1 - 1) / m - cover.firstRow + 1, {subfield.cells, 0});
+    Projected triangle;
+    for (const MirrorChart::Side& side : chart.sides) {
+        if (!project(side, subfield, toEye, triangle)) continue;
+        const CellRange r = triangle.range(subfield.cells);
+        for (int row = r.y0 / m; row * m < r.y1; ++row) {
+            const Vec2 x = triangle.extent(row * m + 0.5f - kGuard, (row + 1) * m - 0.5f + kGuard);
+            const int first = std::max(r.x0, static_cast<int>(std::floor(x.x)));
+            const int last = std::min(r.x1 - 1, static_cast<int>(std::floor(x.y)));
+            if (x.x > x.y || first > last) continue;
+            TileSpan& span = cover.spans[row - cover.firstRow];
+            span = {std::min(span.begin, first / m), std::max(span.end, last / m + 1)};
+        }
+    }
+    // Between parts of a chart that lie one above the other.
+    for (TileSpan& span : cover.spans)
+        if (span.begin >= span.end) span = {all.x0 / m, all.x0 / m + 1};
+    return cover;
 }
 
 void MirrorCellFinder::cover(const Projected& triangle, std::uint32_t side) {
@@ -172,7 +215,7 @@ const std::vector<MirrorCell>& MirrorCellFinder::find(const MirrorChart& chart,
                                                       const Vec3& toEye) {
     cells_.clear();
     range_ = range(chart, subfield, toEye);
-    if (range_.empty()) return cells_;
+    if (range_.x0 >= range_.x1 || range_.y0 >= range_.y1) return cells_;
     candidates_.assign(static_cast<std::size_t>(range_.x1 - range_.x0) * (range_.y1 - range_.y0),
                        {});
     Projected triangle;

@@ -34,11 +34,15 @@ struct MirrorCell {
     bool guard = false;   ///< the ray misses the chart
 };
 
-/// Cells [x0, x1) x [y0, y1); empty if x0 >= x1.
-struct CellRange {
-    int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+/// Tiles [begin, end) of one row of tiles; empty if begin >= end.
+struct TileSpan {
+    int begin = 0, end = 0;
+};
 
-    bool empty() const { return x0 >= x1; }
+/// The tiles that hold the cells of a chart: of row firstRow and the rows that follow it.
+struct TileCover {
+    int firstRow = 0;
+    std::vector<TileSpan> spans;
 };
 
 /// Finds the cells of one chart after the other.
@@ -49,10 +53,10 @@ class MirrorCellFinder {
   public:
     explicit MirrorCellFinder(const Scene& scene) : scene_(scene) {}
 
-    /// Range that holds all cells of the chart's sides that face `toEye` (unit; the subfield's
-    /// direction or its opposite).
-    CellRange range(const MirrorChart& chart, const ParallelSubfield& subfield,
-                    const Vec3& toEye) const;
+    /// The tiles of m x m cells that hold all cells of the chart's sides that face `toEye` (unit;
+    /// the subfield's direction or its opposite). No span is empty.
+    TileCover tiles(const MirrorChart& chart, const ParallelSubfield& subfield, const Vec3& toEye,
+                    int m) const;
 
     /// The cells of the chart, row by row; where several of its triangles lie behind each other,
     /// on the one nearest to the eye. Valid until the next call.
@@ -68,10 +72,16 @@ class MirrorCellFinder {
         Vec2 barycentric{0};
         static constexpr float kNone = 1e30f;
     };
+    /// Cells [x0, x1) x [y0, y1); empty if x0 >= x1.
+    struct CellRange {
+        int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+    };
     struct Projected;
 
     bool project(const MirrorChart::Side& side, const ParallelSubfield& subfield, const Vec3& toEye,
                  Projected& projected) const;
+    CellRange range(const MirrorChart& chart, const ParallelSubfield& subfield,
+                    const Vec3& toEye) const;
     void cover(const Projected& triangle, std::uint32_t side);
     MirrorCell cellAt(const MirrorChart& chart, const ParallelSubfield& subfield, const Vec3& toEye,
                       int x, int y, const Candidate& candidate) const;

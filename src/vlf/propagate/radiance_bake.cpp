@@ -6,6 +6,7 @@
 #include "vlf/propagate/mirror_view.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <string>
 
@@ -19,8 +20,9 @@ void checkParams(const RadianceParams& p) {
     if (p.cells < 16 || p.cells > 8192)
         throw InputError("cells of the radiance field must lie between 16 and 8192, not " +
                          std::to_string(p.cells));
-    if (p.tileSize < 1 || p.tileSize > 256)
-        throw InputError("the tile size must lie between 1 and 256, not " +
+    if (p.tileSize < 1 || p.tileSize > 256 ||
+        !std::has_single_bit(static_cast<unsigned>(p.tileSize)))
+        throw InputError("the tile size must be a power of two from 1 to 256, not " +
                          std::to_string(p.tileSize));
 }
 
@@ -31,17 +33,20 @@ ParallelSubfield subfieldOf(const FieldFrame& frame, const DirectionSet& directi
     return makeSubfield(frame, directions.direction(line), cells);
 }
 
-TileBlock blockOf(std::uint32_t chart, const CellRange& range, int tileSize) {
-    TileBlock block;
-    block.chart = chart;
-    block.tileX = static_cast<std::uint16_t>(range.x0 / tileSize);
-    block.tileY = static_cast<std::uint16_t>(range.y0 / tileSize);
-    block.tilesWide = static_cast<std::uint16_t>((range.x1 - 1) / tileSize + 1 - block.tileX);
-    block.tilesHigh = static_cast<std::uint16_t>((range.y1 - 1) / tileSize + 1 - block.tileY);
-    return block;
+std::vector<TileRow> rowsOf(std::uint32_t chart, const TileCover& cover) {
+    std::vector<TileRow> rows;
+    for (const TileSpan& span : cover.spans) {
+        TileRow row;
+        row.chart = chart;
+        row.tileX = static_cast<std::uint16_t>(span.begin);
+        row.tileY = static_cast<std::uint16_t>(cover.firstRow + rows.size());
+        row.tilesWide = static_cast<std::uint16_t>(span.end - span.begin);
+        rows.push_back(row);
+    }
+    return rows;
 }
 
-/// A field of the given charts with its blocks but without elements.
+/// A field of the given charts with its rows but without elements.
 RadianceField layOut(const Scene& scene, const LightField& field, const DirectionSet& directions,
                      const std::vector<MirrorChart>& mirrors, const RadianceParams& params) {
     RadianceField radiance;
@@ -49,35 +54,35 @@ RadianceField layOut(const Scene& scene, const LightField& field, const Directio
     radiance.cells = params.cells;
     radiance.tileSize = params.tileSize;
     radiance.maxDistance = kLongestDistance * field.frame.radius;
-    std::vector<std::vector<TileBlock>> blocks(directions.directionCount());
-    parallelFor(blocks.size(), 16, [&](std::size_t i) {
+    std::vector<std::vector<TileRow>> rows(directions.directionCount());
+    parallelFor(rows.size(), 16, [&](std::size_t i) {
         const auto d = static_cast<std::uint32_t>(i);
         const ParallelSubfield subfield = subfieldOf(field.frame, directions, d, params.cells);
         const MirrorCellFinder finder(scene);
         for (const MirrorChart& mirror : mirrors) {
-            const CellRange range = finder.range(mirror, subfield, directions.direction(d));
-            if (!range.empty()) blocks[i].push_back(blockOf(mirror.chart, range, params.tileSize));
+            const auto added =
+                rowsOf(mirror.chart,
+                       finder.tiles(mirror, subfield, directions.direction(d), params.tileSize));
+            rows[i].insert(rows[i].end(), added.begin(), added.end());
         }
     });
     std::uint64_t next = 0;
-    radiance.firstBlock = {0};
-    for (std::vector<TileBlock>& ofDirection : blocks) {
-        for (TileBlock& block : ofDirection) {
-            block.firstElement = next;
-            next += static_cast<std::uint64_t>(block.tilesWide) * block.tilesHigh *
-                    params.tileSize * params.tileSize;
-            radiance.blocks.push_back(block);
+    radiance.firstRow = {0};
+    for (std::vector<TileRow>& ofDirection : rows) {
+        for (TileRow& row : ofDirection) {
+            row.firstElement = next;
+            next += radiance.tileElements() * row.tilesWide;
+            radiance.rows.push_back(row);
         }
-        radiance.firstBlock.push_back(static_cast<std::uint32_t>(radiance.blocks.size()));
+        radiance.firstRow.push_back(static_cast<std::uint32_t>(radiance.rows.size()));
     }
     return radiance;
 }
 
 std::uint64_t elementCount(const RadianceField& radiance) {
-    if (radiance.blocks.empty()) return 0;
-    const TileBlock& last = radiance.blocks.back();
-    return last.firstElement + static_cast<std::uint64_t>(last.tilesWide) * last.tilesHigh *
-                                   radiance.tileSize * radiance.tileSize;
+    if (radiance.rows.empty()) return 0;
+    const TileRow& last = radiance.rows.back();
+    return last.firstElement + radiance.tileElements() * last.tilesWide;
 }
 
 std::uint16_t packDistance(float distance, float longest) {
@@ -94,9 +99,8 @@ RadianceSize radianceSize(const Scene& scene, const LightField& field,
     const RadianceField radiance =
         layOut(scene, field, DirectionSet(params.lines), mirrorCharts(scene, field), params);
     const std::uint64_t elements = elementCount(radiance);
-    return {elements, elements * sizeof(RadianceElement) +
-                          radiance.blocks.size() * sizeof(TileBlock) +
-                          radiance.firstBlock.size() * sizeof(std::uint32_t)};
+    return {elements, elements * sizeof(RadianceElement) + radiance.rows.size() * sizeof(TileRow) +
+                          radiance.firstRow.size() * sizeof(std::uint32_t)};
 }
 
 RadianceField bakeRadiance(const Scene& scene, const RayScene& rays, const LightField& field,
@@ -107,10 +111,6 @@ RadianceField bakeRadiance(const Scene& scene, const RayScene& rays, const Light
     const DirectionSet directions(params.lines);
     RadianceField radiance = layOut(scene, field, directions, mirrors, params);
     radiance.elements.resize(elementCount(radiance));
-    const auto mirrorOf = [&](std::uint32_t chart) -> const MirrorChart& {
-        return *std::lower_bound(mirrors.begin(), mirrors.end(), chart,
-                                 [](const MirrorChart& m, std::uint32_t c) { return m.chart < c; });
-    };
     const auto count = static_cast<std::size_t>(directions.directionCount());
     ProgressCounter done(progress, count);
     parallelFor(count, 4, [&](std::size_t i) {
@@ -119,14 +119,17 @@ RadianceField bakeRadiance(const Scene& scene, const RayScene& rays, const Light
         const ParallelSubfield subfield = subfieldOf(field.frame, directions, d, params.cells);
         MirrorCellFinder finder(scene);
         MirrorViewTracer tracer(scene, rays, field, radiance.maxDistance);
-        for (const TileBlock& block : radiance.blocksOf(d)) {
-            const MirrorChart& mirror = mirrorOf(block.chart);
+        for (const MirrorChart& mirror : mirrors) {
+            const auto rows = radiance.rowsOf(d, mirror.chart);
+            if (rows.empty()) continue;
             const std::vector<MirrorCell>& cells = finder.find(mirror, subfield, toEye);
             const std::vector<MirrorView>& views = tracer.trace(cells, toEye, mirror.planar);
-            for (std::size_t c = 0; c < cells.size(); ++c)
-                radiance.elements[radiance.index(block, cells[c].x, cells[c].y)] = {
-                    packRgb9e5(views[c].radiance),
-                    packDistance(views[c].distance, radiance.maxDistance)};
+            for (std::size_t c = 0; c < cells.size(); ++c) {
+                const std::uint64_t e = radiance.index(rows, cells[c].x, cells[c].y);
+                if (e == RadianceField::kNoElement) continue;
+                radiance.elements[e] = {packRgb9e5(views[c].radiance),
+                                        packDistance(views[c].distance, radiance.maxDistance)};
+            }
         }
         done.step();
     });

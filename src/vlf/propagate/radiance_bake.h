@@ -12,16 +12,17 @@
 namespace vlf {
 
 struct RadianceParams {
-    int lines = 2049;   ///< of the direction set: 2·4ⁿ + 1
-    int cells = 256;    ///< N
-    int tileSize = 16;  ///< m
+    int lines = 2049;  ///< of the direction set: 2·4ⁿ + 1
+    int cells = 256;   ///< N
+    int tileSize = 8;  ///< m, a power of two
 };
 
-/// Elements, bytes included, that bakeRadiance would make: cheap, exact.
 struct RadianceSize {
     std::uint64_t elements = 0;
     std::uint64_t bytes = 0;
 };
+
+/// The exact size of what bakeRadiance would return, without the work.
 RadianceSize radianceSize(const Scene& scene, const LightField& field,
                           const RadianceParams& params);
 

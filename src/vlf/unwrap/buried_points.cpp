@@ -10,6 +10,7 @@ namespace vlf {
 namespace {
 
 constexpr std::size_t kProbes = 4;  // points tried before all of a texel's are
+constexpr float kLift = 0.01f;      // height, in texels, at which corners look for each other
 
 class BurialTest {
   public:
@@ -31,7 +32,28 @@ class BurialTest {
             keep[i] = allOpen || isOpen(texel, points[i]);
     }
 
+    /// Whether a wall stands across the texel: its open corners do not see each other along the
+    /// surface.
+    bool isDivided(std::size_t texel, std::span<const std::uint8_t> keep) const {
+        const auto points = unwrap_.points.of(texel);
+        if (!unwrap_.charts[unwrap_.texelChart[texel]].planar || points.size() < 2) return false;
+        const std::size_t last = points.size() - 1;
+        const bool full = points.size() == kTexelGrid * kTexelGrid;
+        const auto blocked = [&](std::size_t a, std::size_t b) {
+            return keep[a] && keep[b] && !sees(texel, points[a], points[b]);
+        };
+        return blocked(0, last) || (full && blocked(kTexelGrid - 1, last - (kTexelGrid - 1)));
+    }
+
   private:
+    bool sees(std::size_t texel, const SurfacePoint& a, const SurfacePoint& b) const {
+        const Vec3& n = unwrap_.charts[unwrap_.texelChart[texel]].normal;
+        const Vec3 lift = std::max(2 * rays_.epsilon(), kLift * unwrap_.texelSize) * n;
+        const Vec3 p = positionAt(scene_, a.triangle, a.barycentric) + lift;
+        const Vec3 q = positionAt(scene_, b.triangle, b.barycentric) + lift;
+        return !rays_.occluded({p, q - p, 0, 1});
+    }
+
     bool isOpen(std::size_t texel, const SurfacePoint& point) const {
         const std::uint32_t chart = unwrap_.texelChart[texel];
         const bool front = unwrap_.triangleCharts[point.triangle].front == chart;
@@ -53,11 +75,17 @@ class BurialTest {
 
 void dropBuriedPoints(const Scene& scene, const RayScene& rays, Unwrap& unwrap) {
     std::vector<std::uint8_t> keep(unwrap.points.points.size());
+    std::vector<std::uint8_t> divided(unwrap.texels.size());
     const BurialTest test(scene, rays, unwrap);
     parallelFor(unwrap.texels.size(), 256, [&](std::size_t i) {
         const std::uint32_t begin = unwrap.points.first[i], end = unwrap.points.first[i + 1];
-        test(i, std::span(keep).subspan(begin, end - begin));
+        const std::span<std::uint8_t> own = std::span(keep).subspan(begin, end - begin);
+        test(i, own);
+        divided[i] = test.isDivided(i, own);
+        if (divided[i]) std::fill(own.begin(), own.end(), std::uint8_t{0});
     });
+    for (std::size_t i = 0; i < divided.size(); ++i)
+        if (divided[i]) unwrap.divided.push_back(unwrap.texels[i]);
     TexelPoints kept;
     kept.first.push_back(0);
     std::size_t texels = 0;

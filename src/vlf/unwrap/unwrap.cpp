@@ -109,11 +109,13 @@ void coverTexels(const Scene& scene, Unwrap& result) {
 void findProxies(Unwrap& result) {
     std::vector<std::uint8_t> covered(result.atlasSize(), 0);
     for (const std::uint32_t t : result.texels) covered[t] = 1;
+    std::vector<std::uint8_t> divided(result.atlasSize(), 0);
+    for (const std::uint32_t t : result.divided) divided[t] = 1;
     for (const Chart& c : result.charts)
         for (std::uint32_t y = c.y; y < c.y + c.height; ++y)
             for (std::uint32_t x = c.x; x < c.x + c.width; ++x) {
                 const std::uint32_t texel = y * result.atlasWidth + x;
-                if (covered[texel]) continue;
+                if (covered[texel] || divided[texel]) continue;
                 // The gutter keeps neighbours of an edge texel within the atlas.
                 const std::uint32_t pitch = result.atlasWidth;
                 for (const std::uint32_t n : {texel - 1, texel + 1, texel - pitch, texel + pitch})
@@ -160,6 +162,7 @@ Unwrap restoreUnwrap(const Scene& scene, const RayScene& rays, const std::vector
     result.triangleCharts = triangleCharts;
     result.atlasWidth = atlas.width;
     result.atlasHeight = atlas.height;
+    result.texelSize = charts.empty() ? 0 : 1 / glm::length(charts.front().uAxis);
     findTexels(scene, rays, result);
     return result;
 }

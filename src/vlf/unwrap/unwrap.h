@@ -34,6 +34,10 @@ struct Unwrap {
     TexelPoints points;
     std::vector<float> pointArea;  ///< per chart: surface area that a point stands for, m²
 
+    /// Texels that a wall stands across (atlas indices): they take no part in transport, being
+    /// neither samples nor receivers.
+    std::vector<std::uint32_t> divided;
+
     /// Texels within a chart that the points miss but a ray may still hit (slivers of the
     /// surface), and the covered neighbour that stands for them. Atlas indices.
     std::vector<std::pair<std::uint32_t, std::uint32_t>> proxies;

@@ -51,41 +51,52 @@ TEST(Rgb9e5, TinyValuesLoseAtMostHalfOfTheSmallestStep) {
         EXPECT_LE(packingError(Vec3(v)), std::exp2(-25.0f)) << v;
 }
 
-/// One direction of 2, with blocks of charts 3 and 7; chart 7 covers 2 x 1 tiles of 4 x 4 from
-/// tile (1, 2) on. The distance of each element is its index.
+/// One direction of 2, with rows of charts 3 and 7; chart 7 covers two rows of tiles of 4 x 4: two
+/// from tile (1, 2) on and one at (2, 3). The distance of each element is its index.
 RadianceField makeField() {
     RadianceField field;
     field.lines = 1, field.cells = 16, field.tileSize = 4, field.maxDistance = 1;
-    field.firstBlock = {0, 2, 2};
-    field.blocks = {{3, 0, 0, 1, 1, 0}, {7, 1, 2, 2, 1, 16}};
-    for (std::uint16_t i = 0; i < 48; ++i) field.elements.push_back({0, i});
+    field.firstRow = {0, 3, 3};
+    field.rows = {{3, 0, 0, 1, 0}, {7, 1, 2, 2, 16}, {7, 2, 3, 1, 48}};
+    for (std::uint16_t i = 0; i < 64; ++i) field.elements.push_back({0, i});
     return field;
 }
 
-TEST(RadianceField, FindsTheBlockOfAChartInADirection) {
+TEST(RadianceField, FindsTheRowsOfAChartInADirection) {
     const RadianceField field = makeField();
-    EXPECT_EQ(field.find(0, 3), &field.blocks[0]);
-    EXPECT_EQ(field.find(0, 7), &field.blocks[1]);
-    EXPECT_EQ(field.find(0, 5), nullptr);
-    EXPECT_EQ(field.find(0, 9), nullptr);
-    EXPECT_EQ(field.find(1, 3), nullptr);
+    EXPECT_EQ(field.rowsOf(0, 3).data(), &field.rows[0]);
+    EXPECT_EQ(field.rowsOf(0, 3).size(), 1u);
+    EXPECT_EQ(field.rowsOf(0, 7).data(), &field.rows[1]);
+    EXPECT_EQ(field.rowsOf(0, 7).size(), 2u);
+    EXPECT_TRUE(field.rowsOf(0, 5).empty());
+    EXPECT_TRUE(field.rowsOf(0, 9).empty());
+    EXPECT_TRUE(field.rowsOf(1, 3).empty());
 }
 
 TEST(RadianceField, ElementsLieTileByTile) {
     const RadianceField field = makeField();
-    const TileBlock& block = field.blocks[1];
-    EXPECT_EQ(field.element(block, 4, 8)->distance, 16);    // first cell of the first tile
-    EXPECT_EQ(field.element(block, 5, 8)->distance, 17);    // next in its row
-    EXPECT_EQ(field.element(block, 4, 9)->distance, 20);    // next row
-    EXPECT_EQ(field.element(block, 8, 8)->distance, 32);    // next tile
-    EXPECT_EQ(field.element(block, 11, 11)->distance, 47);  // last cell of all
+    const auto rows = field.rowsOf(0, 7);
+    EXPECT_EQ(field.element(rows, 4, 8)->distance, 16);    // first cell of the first tile
+    EXPECT_EQ(field.element(rows, 5, 8)->distance, 17);    // next in its row
+    EXPECT_EQ(field.element(rows, 4, 9)->distance, 20);    // next row
+    EXPECT_EQ(field.element(rows, 8, 8)->distance, 32);    // next tile
+    EXPECT_EQ(field.element(rows, 11, 11)->distance, 47);  // last cell of the row of tiles
+    EXPECT_EQ(field.element(rows, 8, 12)->distance, 48);   // next row of tiles
+    EXPECT_EQ(field.element(rows, 11, 15)->distance, 63);  // last cell of all
 }
 
-TEST(RadianceField, HasNoElementBeyondABlock) {
+TEST(RadianceField, HasNoElementBeyondTheRows) {
     const RadianceField field = makeField();
-    const TileBlock& block = field.blocks[1];
-    for (const auto& [x, y] : {std::pair(3, 8), {12, 8}, {4, 7}, {4, 12}, {-1, -1}})
-        EXPECT_EQ(field.element(block, x, y), nullptr) << x << ' ' << y;
+    const auto rows = field.rowsOf(0, 7);
+    for (const auto& [x, y] : {std::pair(3, 8), {12, 8}, {4, 7}, {4, 12}, {8, 16}, {-1, -1}})
+        EXPECT_EQ(field.element(rows, x, y), nullptr) << x << ' ' << y;
+    EXPECT_EQ(field.element({}, 4, 8), nullptr);
+}
+
+TEST(RadianceField, ElementsKeepTheirRadianceInSixBytes) {
+    const RadianceElement element(0x89abcdefu, 77);
+    EXPECT_EQ(element.rgb9e5(), 0x89abcdefu);
+    EXPECT_EQ(element.distance, 77);
 }
 
 }  // namespace

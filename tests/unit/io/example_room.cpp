@@ -211,8 +211,8 @@ void addAtlas(LightField& field, float texelsPerMetre) {
         fillChart(field.atlas, field.charts[w], kWalls[w], texelsPerMetre);
 }
 
-/// The tiles that the mirror's corners span.
-TileBlock mirrorBlock(const ParallelSubfield& subfield, int m) {
+/// The rows of the tiles that the mirror's corners span.
+std::vector<TileRow> mirrorRows(const ParallelSubfield& subfield, int m) {
     Vec2 lower(1e9f), upper(-1e9f);
     for (int corner = 0; corner < 4; ++corner) {
         const Vec2 c = subfield.cellCoordinates(
@@ -220,13 +220,14 @@ TileBlock mirrorBlock(const ParallelSubfield& subfield, int m) {
         lower = glm::min(lower, c);
         upper = glm::max(upper, c);
     }
-    TileBlock block;
-    block.chart = kMirrorWall;
-    block.tileX = static_cast<std::uint16_t>(std::max(0.0f, lower.x) / m);
-    block.tileY = static_cast<std::uint16_t>(std::max(0.0f, lower.y) / m);
-    block.tilesWide = static_cast<std::uint16_t>(static_cast<int>(upper.x) / m - block.tileX + 1);
-    block.tilesHigh = static_cast<std::uint16_t>(static_cast<int>(upper.y) / m - block.tileY + 1);
-    return block;
+    TileRow row;
+    row.chart = kMirrorWall;
+    row.tileX = static_cast<std::uint16_t>(std::max(0.0f, lower.x) / m);
+    row.tileY = static_cast<std::uint16_t>(std::max(0.0f, lower.y) / m);
+    row.tilesWide = static_cast<std::uint16_t>(static_cast<int>(upper.x) / m - row.tileX + 1);
+    std::vector<TileRow> rows;
+    for (; row.tileY <= static_cast<int>(upper.y) / m; ++row.tileY) rows.push_back(row);
+    return rows;
 }
 
 RadianceElement mirrorElement(const ParallelSubfield& s, int x, int y, float maxDistance,
@@ -251,29 +252,30 @@ RadianceField makeRadiance(const ExampleSize& size, const FieldFrame& frame) {
     radiance.cells = size.cells;
     radiance.tileSize = size.tileSize;
     radiance.maxDistance = 8;
-    radiance.firstBlock = {0};
-    std::vector<ParallelSubfield> subfields;
+    radiance.firstRow = {0};
+    std::vector<ParallelSubfield> subfields;  // of each row
     const DirectionSet directions(size.lines);
-    const std::uint64_t tile = static_cast<std::uint64_t>(size.tileSize) * size.tileSize;
     for (int d = 0; d < directions.directionCount(); ++d) {
         const Vec3 w = directions.direction(static_cast<std::uint32_t>(d));
         if (w.z > 0.01f) {
-            subfields.push_back(makeSubfield(frame, w, size.cells));
-            TileBlock block = mirrorBlock(subfields.back(), size.tileSize);
-            block.firstElement = radiance.elements.size();
-            radiance.blocks.push_back(block);
-            radiance.elements.resize(radiance.elements.size() +
-                                     tile * block.tilesWide * block.tilesHigh);
+            const ParallelSubfield subfield = makeSubfield(frame, w, size.cells);
+            for (TileRow row : mirrorRows(subfield, size.tileSize)) {
+                row.firstElement = radiance.elements.size();
+                radiance.rows.push_back(row);
+                radiance.elements.resize(radiance.elements.size() +
+                                         radiance.tileElements() * row.tilesWide);
+                subfields.push_back(subfield);
+            }
         }
-        radiance.firstBlock.push_back(static_cast<std::uint32_t>(radiance.blocks.size()));
+        radiance.firstRow.push_back(static_cast<std::uint32_t>(radiance.rows.size()));
     }
-    parallelFor(radiance.blocks.size(), [&](std::size_t b) {
-        const TileBlock& block = radiance.blocks[b];
+    parallelFor(radiance.rows.size(), [&](std::size_t r) {
+        const TileRow& row = radiance.rows[r];
         const int m = size.tileSize;
-        for (int y = block.tileY * m; y < (block.tileY + block.tilesHigh) * m; ++y)
-            for (int x = block.tileX * m; x < (block.tileX + block.tilesWide) * m; ++x)
-                *const_cast<RadianceElement*>(radiance.element(block, x, y)) =
-                    mirrorElement(subfields[b], x, y, radiance.maxDistance,
+        for (int y = row.tileY * m; y < (row.tileY + 1) * m; ++y)
+            for (int x = row.tileX * m; x < (row.tileX + row.tilesWide) * m; ++x)
+                radiance.elements[radiance.index({&row, 1}, x, y)] =
+                    mirrorElement(subfields[r], x, y, radiance.maxDistance,
                                   static_cast<float>(size.texelsPerMetre));
     });
     return radiance;

@@ -174,7 +174,7 @@ TEST(FieldFile, RadianceAndDistanceAreRoundedWithinTheirBounds) {
         ASSERT_EQ(a.distance == 0, b.distance == 0);
         if (b.distance == 0) continue;
         ASSERT_LE(std::abs(a.distance - b.distance), 16);
-        const Vec3 x = unpackRgb9e5(a.rgb9e5), y = unpackRgb9e5(b.rgb9e5);
+        const Vec3 x = unpackRgb9e5(a.rgb9e5()), y = unpackRgb9e5(b.rgb9e5());
         for (int c = 0; c < 3; ++c) ASSERT_LE(std::abs(x[c] - y[c]), maxComponent(y) / 256) << i;
         sum += glm::dvec3(x);
         sumExpected += glm::dvec3(y);
@@ -189,15 +189,14 @@ TEST(FieldFile, KeepsTheLayoutOfTheRadianceField) {
     EXPECT_EQ(read.cells, expected.cells);
     EXPECT_EQ(read.tileSize, expected.tileSize);
     EXPECT_EQ(read.maxDistance, expected.maxDistance);
-    EXPECT_EQ(read.firstBlock, expected.firstBlock);
-    ASSERT_EQ(read.blocks.size(), expected.blocks.size());
-    for (std::size_t i = 0; i < read.blocks.size(); ++i) {
-        EXPECT_EQ(read.blocks[i].chart, expected.blocks[i].chart);
-        EXPECT_EQ(read.blocks[i].tileX, expected.blocks[i].tileX);
-        EXPECT_EQ(read.blocks[i].tileY, expected.blocks[i].tileY);
-        EXPECT_EQ(read.blocks[i].tilesWide, expected.blocks[i].tilesWide);
-        EXPECT_EQ(read.blocks[i].tilesHigh, expected.blocks[i].tilesHigh);
-        EXPECT_EQ(read.blocks[i].firstElement, expected.blocks[i].firstElement);
+    EXPECT_EQ(read.firstRow, expected.firstRow);
+    ASSERT_EQ(read.rows.size(), expected.rows.size());
+    for (std::size_t i = 0; i < read.rows.size(); ++i) {
+        EXPECT_EQ(read.rows[i].chart, expected.rows[i].chart);
+        EXPECT_EQ(read.rows[i].tileX, expected.rows[i].tileX);
+        EXPECT_EQ(read.rows[i].tileY, expected.rows[i].tileY);
+        EXPECT_EQ(read.rows[i].tilesWide, expected.rows[i].tilesWide);
+        EXPECT_EQ(read.rows[i].firstElement, expected.rows[i].firstElement);
     }
 }
 
@@ -212,29 +211,28 @@ TEST(FieldFile, ExtremeRadianceSurvives) {
     for (std::size_t i = 0; i < read.elements.size(); ++i) {
         const RadianceElement &a = read.elements[i], &b = room.field.radiance.elements[i];
         ASSERT_LE(std::abs(a.distance - b.distance), 16);
-        const Vec3 x = unpackRgb9e5(a.rgb9e5), y = unpackRgb9e5(b.rgb9e5);
+        const Vec3 x = unpackRgb9e5(a.rgb9e5()), y = unpackRgb9e5(b.rgb9e5());
         for (int c = 0; c < 3; ++c) ASSERT_LE(std::abs(x[c] - y[c]), maxComponent(y) / 256) << i;
     }
 }
 
-TEST(FieldFile, BlocksInAnyPlaceAreReadOneAfterTheOther) {
+TEST(FieldFile, RowsInAnyPlaceAreReadOneAfterTheOther) {
     const BakedRoom room = makeExampleRoom();
     BakedRoom shuffled = room;
     RadianceField& radiance = shuffled.field.radiance;
     radiance.elements.clear();
-    for (std::size_t b = radiance.blocks.size(); b-- > 0;) {
-        TileBlock& block = radiance.blocks[b];
+    for (std::size_t r = radiance.rows.size(); r-- > 0;) {
+        TileRow& row = radiance.rows[r];
         const auto first =
-            room.field.radiance.elements.begin() + static_cast<std::ptrdiff_t>(block.firstElement);
+            room.field.radiance.elements.begin() + static_cast<std::ptrdiff_t>(row.firstElement);
         radiance.elements.resize(radiance.elements.size() + 5);
-        block.firstElement = radiance.elements.size();
-        radiance.elements.insert(radiance.elements.end(), first,
-                                 first + 64 * block.tilesWide * block.tilesHigh);
+        row.firstElement = radiance.elements.size();
+        radiance.elements.insert(radiance.elements.end(), first, first + 64 * row.tilesWide);
     }
     const BakedRoom a = throughFile(room), b = throughFile(shuffled);
     ASSERT_EQ(a.field.radiance.elements.size(), b.field.radiance.elements.size());
     for (std::size_t i = 0; i < a.field.radiance.elements.size(); ++i) {
-        ASSERT_EQ(a.field.radiance.elements[i].rgb9e5, b.field.radiance.elements[i].rgb9e5);
+        ASSERT_EQ(a.field.radiance.elements[i].rgb9e5(), b.field.radiance.elements[i].rgb9e5());
         ASSERT_EQ(a.field.radiance.elements[i].distance, b.field.radiance.elements[i].distance);
     }
 }
@@ -243,8 +241,11 @@ TEST(FieldFile, WhatWasReadIsWrittenAgainByteForByte) {
     const TempFolder folder;
     BakedRoom room = makeExampleRoom({.lines = 33, .cells = 64});
     std::uint32_t bits = 1;
-    for (std::size_t i = 0; i < room.field.radiance.elements.size(); i += 2)
-        room.field.radiance.elements[i].rgb9e5 = bits = bits * 1664525 + 1013904223;
+    for (std::size_t i = 0; i < room.field.radiance.elements.size(); i += 2) {
+        RadianceElement& e = room.field.radiance.elements[i];
+        bits = bits * 1664525 + 1013904223;
+        e = {bits, e.distance};
+    }
     writeField(folder.file("a.vlf"), room);
     writeField(folder.file("b.vlf"), readField(folder.file("a.vlf")));
     EXPECT_EQ(readFile(folder.file("a.vlf")), readFile(folder.file("b.vlf")));
@@ -350,13 +351,13 @@ TEST(FieldFile, RoomsThatWouldLeadOutOfBoundsAreNotWritten) {
         {"summary", [](BakedRoom& r) { r.field.radiance.lines = 10; }},
         {"summary", [](BakedRoom& r) { r.field.radiance.tileSize = 0; }},
         {"summary", [=](BakedRoom& r) { r.field.radiance.maxDistance = nan; }},
-        {"subfields", [](BakedRoom& r) { r.field.radiance.firstBlock.back() = 0; }},
-        {"subfields", [](BakedRoom& r) { r.field.radiance.firstBlock.pop_back(); }},
-        {"tile blocks", [](BakedRoom& r) { r.field.radiance.blocks[0].chart = 6; }},
-        {"tile blocks", [](BakedRoom& r) { r.field.radiance.blocks[0].tilesWide = 60000; }},
-        {"tile blocks", [](BakedRoom& r) { r.field.radiance.blocks[0].tilesHigh = 0; }},
-        {"tile blocks", [](BakedRoom& r) { r.field.radiance.blocks[0].firstElement = ~0ull; }},
-        {"tile blocks", [](BakedRoom& r) { r.field.radiance.elements.pop_back(); }},
+        {"subfields", [](BakedRoom& r) { r.field.radiance.firstRow.back() = 0; }},
+        {"subfields", [](BakedRoom& r) { r.field.radiance.firstRow.pop_back(); }},
+        {"tile rows", [](BakedRoom& r) { r.field.radiance.rows[0].chart = 6; }},
+        {"tile rows", [](BakedRoom& r) { r.field.radiance.rows[0].tilesWide = 60000; }},
+        {"tile rows", [](BakedRoom& r) { r.field.radiance.rows[1].tileY += 1; }},
+        {"tile rows", [](BakedRoom& r) { r.field.radiance.rows[0].firstElement = ~0ull; }},
+        {"tile rows", [](BakedRoom& r) { r.field.radiance.elements.pop_back(); }},
     };
     const TempFolder folder;
     const BakedRoom good = makeExampleRoom();

@@ -4,12 +4,15 @@
 // Plain: the subfields of the three directions around the one to the eye, bilinear in their cells
 // (J. Mortensen et al., "Real-time global illumination in the CAVE", VRST 2007). Depth-corrected:
 // what is seen at distance d in the mirror lies, as a virtual image, at q = p - ω d behind it; each
-// subfield is sampled not at p but where it shows q.
+// subfield is sampled not at p but where it shows q. A subfield is then a height field of virtual
+// points, and the line of sight is followed to where it meets it.
 
 #include "vlf/field/direction_set.h"
 #include "vlf/field/light_field.h"
 
+#include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace vlf {
@@ -35,17 +38,20 @@ class MirrorLookup {
     Vec3 mirrorRadiance(const MirrorPoint& point, const Vec3& toEye, LookupKind kind) const;
 
   private:
-    struct View;
-    struct Sight;
+    class View;
+    using Views = std::array<View, 3>;
+    struct Layer;
 
     View viewOf(std::uint32_t direction, float weight, const MirrorPoint& point,
                 const Vec3& toEye) const;
-    Vec3 plain(const std::array<View, 3>& views) const;
-    Vec3 depthCorrected(const std::array<View, 3>& views) const;
+    Vec3 plain(const Views& views) const;
+    Vec3 depthCorrected(const Views& views) const;
+    Layer layerAt(const Views& views, float s) const;
 
     const RadianceField& radiance_;
     DirectionSet directions_;
     std::vector<ParallelSubfield> subfields_;  ///< of each line; both senses share it
+    float tolerance_;                          ///< metres between points of one surface
 };
 
 }  // namespace vlf

@@ -1,0 +1,62 @@
+#!/usr/bin/env python3
+"""Irradiance error against CPU time: the table of docs/benchmarks.md.
+
+    bench/transport_table.py build/release/app/vlf [--texels 1000] [--spp 4096] [SCENE ...]
+
+Bakes the project's scenes, path-traces the irradiance of some of their texels with the same
+program and prints, per scene, what the bake took and what path tracing all texels to the same error
+would take (its error falls with the square root of the samples). CPU seconds, so that other work on
+the machine matters less. A scene is a name known to `vlf scene` or a file.
+"""
+
+import argparse
+import json
+import pathlib
+import subprocess
+import tempfile
+
+SCENES = ["cornell", "two-rooms", "mirror-room", "gallery", "office"]
+
+
+def run(*command):
+    subprocess.run([str(c) for c in command], check=True)
+
+
+def measure(vlf, scene, args, folder):
+    path = pathlib.Path(scene)
+    if path.suffix == "":
+        run(vlf, "-q", "scene", scene, "-o", folder)
+        path = folder / f"{scene}.obj"
+    field, report, errors = folder / "f.vlf", folder / "bake.json", folder / "error.json"
+    run(vlf, "-q", "bake", path, "-o", field, "--preset", args.preset, "--radiance-directions", 0,
+        "--json", report)
+    run(vlf, "-q", "reference", path, "--irradiance", field, "--spp", args.spp, "--texels",
+        args.texels, "-o", errors)
+    bake, error = json.loads(report.read_text()), json.loads(errors.read_text())
+    stages = {"charts", "direct light", "bounces", "atlas"}
+    cpu = sum(s["cpuSeconds"] for s in bake["stages"] if s["name"] in stages)
+    traced = len(error["texels"])
+    to_equal = error["cpuSeconds"] * bake["texels"] / traced * (
+        error["truthError"] / max(error["relativeRmse"], 1e-9)) ** 2
+    print(f"| {path.stem} | {bake['texels']} | {cpu:.2f} | {100 * error['relativeRmse']:.2f} % | "
+          f"{100 * error['bias']:+.3f} ± {100 * error['biasError']:.3f} % | {to_equal:.0f} | "
+          f"{to_equal / cpu:.0f}x |", flush=True)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("vlf", help="the program")
+    parser.add_argument("scenes", nargs="*", default=SCENES)
+    parser.add_argument("--preset", default="standard")
+    parser.add_argument("--texels", type=int, default=1000)
+    parser.add_argument("--spp", type=int, default=4096)
+    args = parser.parse_args()
+    print("| scene | texels | bake, CPU s | error | bias | path tracing to it, CPU s | factor |")
+    print("| --- | ---: | ---: | ---: | ---: | ---: | ---: |")
+    for scene in args.scenes:
+        with tempfile.TemporaryDirectory() as folder:
+            measure(args.vlf, scene, args, pathlib.Path(folder))
+
+
+if __name__ == "__main__":
+    main()

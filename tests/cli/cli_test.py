@@ -1,0 +1,186 @@
+"""The program from end to end: what it writes, says and returns.
+
+Run as: cli_test.py PATH_OF_VLF [unittest options]
+"""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+PROGRAM = os.path.abspath(sys.argv.pop(1))
+COMMANDS = ["bake", "info", "render", "reference", "compare", "scene", "sheet"]
+FAILED, USAGE, BAD_INPUT, INTERRUPTED = 1, 2, 3, 130
+
+EMPTY_OBJ = "# nothing\n"
+
+
+def vlf(*arguments, folder):
+    return subprocess.run([PROGRAM, *map(str, arguments)], cwd=folder, capture_output=True,
+                          text=True, timeout=120)
+
+
+class Case(unittest.TestCase):
+    """A test in a folder of its own that holds the scene `cornell`."""
+
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.folder = Path(temporary.name)
+        self.run_vlf("scene", "cornell", "-o", ".")
+
+    def run_vlf(self, *arguments, code=0, says=()):
+        """Runs the program, checks its exit code and what it says; returns the process."""
+        done = vlf(*arguments, folder=self.folder)
+        self.assertEqual(done.returncode, code, f"{arguments}: {done.stdout}{done.stderr}")
+        for text in says:
+            self.assertIn(text, done.stdout + done.stderr)
+        return done
+
+    def bake(self, output, *options):
+        self.run_vlf("bake", "cornell.obj", "-o", output, "--preset", "draft", "--texel", "0.2",
+                     "--cells", "64", *options)
+        return self.folder / output
+
+    def files(self):
+        return sorted(p.name for p in self.folder.iterdir())
+
+    def json(self, name):
+        return json.loads((self.folder / name).read_text())
+
+
+class Help(Case):
+    def test_version_names_the_program(self):
+        self.run_vlf("--version", says=["vlf "])
+
+    def test_every_command_has_help_with_an_example(self):
+        for command in COMMANDS:
+            self.run_vlf(command, "--help", says=["Example", f"vlf {command}"])
+
+    def test_the_program_lists_its_commands(self):
+        self.run_vlf("--help", says=COMMANDS)
+
+    def test_no_command_or_an_unknown_one_is_a_usage_error(self):
+        self.run_vlf(code=USAGE)
+        self.run_vlf("cook", code=USAGE)
+        self.run_vlf("bake", "cornell.obj", "-o", "a.vlf", "--nonsense", code=USAGE)
+
+
+class Pipeline(Case):
+    def test_from_scene_to_comparison(self):
+        self.run_vlf("bake", "cornell.obj", "-o", "room.vlf", "--preset", "draft", "--json",
+                     "bake.json")
+        self.run_vlf("info", "room.vlf", "--json", "info.json")
+        self.check_reports(self.json("bake.json"), self.json("info.json"))
+
+        size = ["--size", "64x64"]
+        self.run_vlf("render", "room.vlf", *size, "-o", "field.exr")
+        self.run_vlf("render", "room.vlf", *size, "--mode", "wireframe", "-o", "lines.png")
+        self.run_vlf("reference", "cornell.obj", *size, "--spp", "64", "-o", "truth.exr")
+        self.run_vlf("compare", "field.exr", "truth.exr", "--json", "compare.json")
+        self.assertGreater((self.folder / "lines.png").stat().st_size, 100)
+        report = self.json("compare.json")
+        key = next(k for k in report if k.lower() == "relmse")
+        self.assertLess(report[key], 0.2)
+
+    def check_reports(self, bake, info):
+        self.assertEqual(bake["preset"], "draft")
+        self.assertGreater(bake["texels"], 10000)
+        self.assertEqual(bake["fileBytes"], (self.folder / "room.vlf").stat().st_size)
+        self.assertEqual(info["fileBytes"], bake["fileBytes"])
+        self.assertEqual(info["bake"]["directions"], bake["directions"])
+        self.assertEqual(info["bake"]["texelSize"], bake["texelSize"])
+        emitted, absorbed = bake["energy"]["emitted"], bake["energy"]["absorbed"]
+        self.assertTrue(all(0 < a < e for a, e in zip(absorbed, emitted)))
+
+    def test_irradiance_against_the_path_tracer(self):
+        self.bake("room.vlf")
+        self.run_vlf("reference", "cornell.obj", "--irradiance", "room.vlf", "--spp", "256",
+                     "--texels", "100", "-o", "error.json")
+        report = self.json("error.json")
+        self.assertEqual(len(report["texels"]), 100)
+        self.assertLess(report["relativeRmse"], 0.1)
+
+    def test_the_field_is_the_same_for_any_number_of_threads(self):
+        one = self.bake("1.vlf", "--threads", "1").read_bytes()
+        for threads in ("2", "7"):
+            self.assertEqual(self.bake(f"{threads}.vlf", "--threads", threads).read_bytes(), one)
+
+
+class BadInput(Case):
+    def bake_fails(self, scene, code, says, output="a.vlf", *options):
+        self.run_vlf("bake", scene, "-o", output, "--preset", "draft", *options, code=code,
+                     says=says)
+        self.assertFalse((self.folder / "a.vlf").exists())
+
+    def test_a_missing_scene_is_named(self):
+        done = vlf("bake", "none.obj", "-o", "a.vlf", folder=self.folder)
+        self.assertIn(done.returncode, (FAILED, BAD_INPUT))
+        self.assertIn("none.obj", done.stderr)
+        self.assertNotIn("a.vlf", self.files())
+
+    def test_a_bad_preset_is_a_usage_error(self):
+        self.run_vlf("bake", "cornell.obj", "-o", "a.vlf", "--preset", "best", code=USAGE,
+                     says=["preset"])
+
+    def test_an_empty_scene_is_named(self):
+        (self.folder / "empty.obj").write_text(EMPTY_OBJ)
+        self.bake_fails("empty.obj", BAD_INPUT, ["empty.obj"])
+
+    def test_a_damaged_scene_is_named_with_its_line(self):
+        (self.folder / "bad.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 nan 0\nf 1 2 3\n")
+        self.bake_fails("bad.obj", BAD_INPUT, ["bad.obj", "3"])
+
+    def test_an_output_without_folder_is_named(self):
+        done = vlf("bake", "cornell.obj", "-o", "no/such/a.vlf", folder=self.folder)
+        self.assertIn(done.returncode, (FAILED, BAD_INPUT))
+        self.assertIn("no/such", done.stderr)
+
+    def test_an_output_that_cannot_be_written_is_named(self):
+        (self.folder / "a.vlf").mkdir()
+        self.run_vlf("bake", "cornell.obj", "-o", "a.vlf", "--preset", "draft", "--texel", "0.3",
+                     code=FAILED, says=["a.vlf"])
+        self.assertEqual([f for f in self.files() if f.startswith("a.vlf")], ["a.vlf"])
+
+    def test_too_little_memory_is_refused_with_advice(self):
+        self.bake_fails("cornell.obj", BAD_INPUT, ["GiB", "--texel"], "a.vlf", "--texel", "0.002",
+                        "--max-memory", "0.2")
+
+    def test_absurdly_small_texels_are_refused(self):
+        self.bake_fails("cornell.obj", BAD_INPUT, ["texels"], "a.vlf", "--texel", "1e-7")
+
+    def test_what_is_no_field_file_is_named(self):
+        (self.folder / "not.vlf").write_text("this is no field file")
+        for command in (["info"], ["render", "-o", "a.png"]):
+            self.run_vlf(*command, "not.vlf", code=BAD_INPUT, says=["not.vlf"])
+
+    def test_a_truncated_field_file_is_refused(self):
+        whole = self.bake("room.vlf").read_bytes()
+        (self.folder / "half.vlf").write_bytes(whole[: len(whole) // 2])
+        self.run_vlf("info", "half.vlf", code=BAD_INPUT, says=["half.vlf"])
+
+
+class Interrupt(Case):
+    def test_ctrl_c_stops_a_bake_and_leaves_the_old_file(self):
+        old = self.bake("room.vlf").read_bytes()
+        before = self.files()
+        process = subprocess.Popen(
+            [PROGRAM, "bake", "cornell.obj", "-o", "room.vlf", "--preset", "high", "--texel",
+             "0.02", "--directions", "8193", "--cells", "4096"],
+            cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+        for line in process.stdout:  # until the work has begun
+            if "bounces" in line or "direct" in line:
+                break
+        process.send_signal(signal.SIGINT)
+        rest, _ = process.communicate(timeout=60)
+        self.assertEqual(process.returncode, INTERRUPTED, rest)
+        self.assertEqual((self.folder / "room.vlf").read_bytes(), old)
+        self.assertEqual(self.files(), before)
+
+
+if __name__ == "__main__":
+    unittest.main()
