@@ -16,9 +16,9 @@ namespace vlf {
 /// Seroussi, Sapiro, "The LOCO-I Lossless Image Compression Algorithm", IEEE TIP 9(8), 2000).
 template <class T>
 T predictMedian(T left, T up, T upperLeft) {
-    using Wide = std::conditional_t<sizeof(T) < 4, std::int32_t, std::int64_t>;
-    const Wide plane = static_cast<Wide>(left) + up - upperLeft;
-    return static_cast<T>(std::clamp<Wide>(plane, std::min(left, up), std::max(left, up)));
+    const T low = std::min(left, up), high = std::max(left, up);
+    // As low + high = left + up, and without overflow where the sum would.
+    return static_cast<T>(low + high - std::clamp(upperLeft, low, high));
 }
 
 /// Small differences of either sign, modulo the range of T, as small numbers: 0, -1, 1, -2, ...

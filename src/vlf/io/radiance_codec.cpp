@@ -66,6 +66,29 @@ Code stableCode(const RadianceElement& element) {
     return toCode(unpackRgb9e5(once.rgb9e5()), element.distance);
 }
 
+/// Four lanes of a vector register: an extension of GCC and Clang, for any processor.
+using Lanes [[gnu::vector_size(8)]] = std::uint16_t;
+using SignedLanes [[gnu::vector_size(8)]] = std::int16_t;
+
+/// Lane by lane the middle one of low <= high and value.
+SignedLanes clampLanes(SignedLanes value, SignedLanes low, SignedLanes high) {
+    const SignedLanes raised = value < low ? low : value;
+    return raised > high ? high : raised;
+}
+
+/// left + up - upperLeft for distances, which is exact on planes; predictMedian for colours, which
+/// is the same after clamping upperLeft to what left and up span.
+Code predictCode(const Code& left, const Code& up, const Code& upperLeft) {
+    constexpr SignedLanes kColours = {0, -1, -1, -1};
+    constexpr std::uint16_t kSign = 0x8000;  // processors compare signed lanes faster
+    const Lanes l = std::bit_cast<Lanes>(left) ^ kSign, u = std::bit_cast<Lanes>(up) ^ kSign;
+    const auto corner = std::bit_cast<SignedLanes>(std::bit_cast<Lanes>(upperLeft) ^ kSign);
+    const auto a = std::bit_cast<SignedLanes>(l), b = std::bit_cast<SignedLanes>(u);
+    const SignedLanes clamped = clampLanes(corner, a < b ? a : b, a < b ? b : a);
+    const auto subtracted = std::bit_cast<Lanes>((clamped & kColours) | (corner & ~kColours));
+    return std::bit_cast<Code>((l + u - subtracted) ^ kSign);
+}
+
 /// The codes of one tile with the last column, row and corner of its left, upper and upper left
 /// neighbours around it.
 class BorderedTile {
@@ -89,13 +112,7 @@ class BorderedTile {
         }
     }
 
-    Code predict(int x, int y) {
-        const Code &left = at(x - 1, y), &up = at(x, y - 1), &upperLeft = at(x - 1, y - 1);
-        // A plane of distances is predicted exactly; colours have edges.
-        Code code{static_cast<std::uint16_t>(left[0] + up[0] - upperLeft[0])};
-        for (int c = 1; c < 4; ++c) code[c] = predictMedian(left[c], up[c], upperLeft[c]);
-        return code;
-    }
+    Code predict(int x, int y) { return predictCode(at(x - 1, y), at(x, y - 1), at(x - 1, y - 1)); }
 
   private:
     int size_, stride_;

@@ -9,7 +9,8 @@ namespace vlf {
 namespace {
 
 constexpr float kMinCosine = 1e-3f;  // sides more grazing than this show nothing
-constexpr float kGuard = 1;          // cells
+constexpr float kGuard = 1.01f;      // cells, a little more than the one that is needed
+constexpr float kEdge = 1e-4f;       // of a triangle's height: on its edge
 constexpr float kMaxGuard = 2;  // of the cell size on the chart, where it is seen at grazing angles
 
 float cross(const Vec2& a, const Vec2& b) {
@@ -195,8 +196,9 @@ MirrorCell MirrorCellFinder::cellAt(const MirrorChart& chart, const ParallelSubf
                                     const Vec3& toEye, int x, int y,
                                     const Candidate& candidate) const {
     const MirrorChart::Side& side = chart.sides[candidate.side];
-    MirrorCell cell{
-        x, y, side.triangle, side.front, candidate.barycentric, Vec3(0), candidate.outside > 0};
+    const Vec2& b = candidate.barycentric;
+    const bool onEdge = std::min({b.x, b.y, 1 - b.x - b.y}) < kEdge;
+    MirrorCell cell{x, y, side.triangle, side.front, b, Vec3(0), onEdge};
     cell.position = positionAt(scene_, side.triangle, candidate.barycentric);
     if (!chart.planar) return cell;
     // On to where the cell's ray meets the plane.

@@ -31,7 +31,7 @@ struct MirrorCell {
     bool front = true;
     Vec2 barycentric{0};  ///< within the triangle
     Vec3 position{0};     ///< beyond it for guard cells of planar charts
-    bool guard = false;   ///< the ray misses the chart
+    bool guard = false;   ///< the ray misses the triangle or meets its very edge
 };
 
 /// Tiles [begin, end) of one row of tiles; empty if begin >= end.

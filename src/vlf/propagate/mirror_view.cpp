@@ -98,10 +98,15 @@ void MirrorViewTracer::reflect(Path path, const Vec3& direction, const Arrival& 
     nextPaths_.push_back(path);
 }
 
-/// Guard cells try again from the chart's point next to them.
-void MirrorViewTracer::enterSolid(Path path, const Ray& ray) {
+std::uint32_t MirrorViewTracer::chartHit(const Ray& ray, const Hit& hit) const {
+    const bool front = glm::dot(areaVector(scene_, hit.triangle), ray.direction) < 0;
+    const TriangleCharts& sides = field_.triangleCharts[hit.triangle];
+    return front ? sides.front : sides.back;
+}
+
+/// Starts a guard cell again from the chart's point next to it.
+void MirrorViewTracer::restart(Path path, const Ray& ray) {
     const MirrorCell& cell = cells_[path.cell];
-    if (!path.first || !cell.guard) return;
     const Vec2 inset = cell.barycentric + kInset * (Vec2(1.0f / 3) - cell.barycentric);
     const Vec3 side = sideNormal(scene_, cell.triangle, cell.front);
     path.first = false;
@@ -112,14 +117,11 @@ void MirrorViewTracer::enterSolid(Path path, const Ray& ray) {
 
 void MirrorViewTracer::arrive(const Path& path, const Ray& ray, const Hit& hit) {
     MirrorView& view = views_[path.cell];
-    if (!hit) {
-        if (path.unfolding) view.distance = longest_;
-        return;
-    }
+    const std::uint32_t chart = hit ? chartHit(ray, hit) : kNoChart;
+    if (chart == kNoChart && path.first && cells_[path.cell].guard) return restart(path, ray);
+    if (!hit && path.unfolding) view.distance = longest_;
+    if (chart == kNoChart) return;
     const bool front = glm::dot(areaVector(scene_, hit.triangle), ray.direction) < 0;
-    const TriangleCharts& sides = field_.triangleCharts[hit.triangle];
-    const std::uint32_t chart = front ? sides.front : sides.back;
-    if (chart == kNoChart) return enterSolid(path, ray);
     const Arrival at{hit,
                      field_.charts[chart],
                      scene_.material(hit.triangle),

@@ -25,8 +25,8 @@ struct MirrorView {
 float imageDistance(float d, float curvature, float cosine, float longest);
 
 /// Follows rays from mirror charts. Light seen is emission (of the emitting side) and ρE/π of the
-/// field's atlas. A guard cell within a solid, as under the mirror's frame, shows what the chart's
-/// point next to it does.
+/// field's atlas. A guard cell outside the room or within a solid, as under the mirror's frame,
+/// shows what the chart's point next to it does.
 class MirrorViewTracer {
   public:
     /// Distances are limited to `longest`, which is also that of rays that leave the scene.
@@ -50,7 +50,8 @@ class MirrorViewTracer {
     struct Arrival;
 
     void start(const Vec3& toEye, bool planar);
-    void enterSolid(Path path, const Ray& ray);
+    std::uint32_t chartHit(const Ray& ray, const Hit& hit) const;
+    void restart(Path path, const Ray& ray);
     void advance();
     void arrive(const Path& path, const Ray& ray, const Hit& hit);
     Vec3 radianceSeen(const Arrival& at) const;

@@ -3,6 +3,7 @@
 #include "support/analytic_scenes.h"
 #include "vlf/image/metrics.h"
 #include "vlf/image/tone_map.h"
+#include "vlf/math/random.h"
 #include "vlf/propagate/bake.h"
 #include "vlf/propagate/radiance_bake.h"
 #include "vlf/render/cpu/camera_rays.h"
@@ -94,7 +95,7 @@ double lookupQuality(const Scene& scene, const LightField& field, const Camera& 
 struct EvenRoom {
     EvenRoom() {
         for (Material& m : scene.materials) {
-            m.emission = Vec3(0);
+            if (m.isEmitter()) m.emission = Vec3(1e-6f);
             if (!m.isMirror()) m.diffuse = Vec3(0.5f);
         }
         field = bakeRoom(scene, 0, 64);

@@ -122,7 +122,10 @@ TEST(Atlas, IsTheSameAtAnyScale) {
     for (const float factor : {1e-3f, 1e4f}) {
         const UnwrappedScene other(scaled(scene, factor), {0, 20000});
         EXPECT_EQ(other.unwrap.charts.size(), room.unwrap.charts.size()) << factor;
-        EXPECT_EQ(other.unwrap.texels.size(), room.unwrap.texels.size()) << factor;
+        // Rays along a seam may fall to either side.
+        EXPECT_NEAR(static_cast<double>(other.unwrap.texels.size()),
+                    static_cast<double>(room.unwrap.texels.size()), 5)
+            << factor;
     }
 }
 

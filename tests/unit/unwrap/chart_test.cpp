@@ -57,6 +57,7 @@ double uncoveredShare(const UnwrappedScene& s, int pointsPerTriangle) {
     std::vector<bool> known(u.atlasSize(), false);
     for (const std::uint32_t texel : u.texels) known[texel] = true;
     for (const auto& [texel, proxy] : u.proxies) known[texel] = true;
+    for (const std::uint32_t texel : u.divided) known[texel] = true;
     RandomStream random(1, 2);
     double missed = 0, all = 0;
     for (std::uint32_t t = 0; t < s.scene.triangles.size(); ++t)
@@ -158,6 +159,12 @@ TEST(Charts, MapAStatueOneToOne) {
 TEST(Charts, CoverTheWholeSurface) {
     const UnwrappedScene room(generateScene("mirror-room", {2000}), {0, 40000});
     EXPECT_LT(uncoveredShare(room, 64), 1e-4);
+}
+
+TEST(Charts, AThinWallDividesFewTexels) {
+    const UnwrappedScene rooms(generateScene("sealed"), {0, 20000});
+    EXPECT_GT(rooms.unwrap.divided.size(), 50u);
+    EXPECT_LT(rooms.unwrap.divided.size(), 0.03 * rooms.unwrap.texels.size());
 }
 
 TEST(Charts, HaveTheAreaOfTheSurface) {
