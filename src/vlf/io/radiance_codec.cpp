@@ -35,9 +35,11 @@ std::uint32_t toRgb9e5(std::uint16_t red, std::uint16_t green, std::uint16_t blu
     };
     const std::uint32_t r = bounded(red), g = bounded(green), b = bounded(blue);
     const std::uint32_t exponent = std::max(std::max(r, std::max(g, b)) >> 7, kLeastExponent);
+    // 2 to the power of 24 less the shared exponent, as the bits of a float.
+    const auto scale = std::bit_cast<float>((127 + 24 + kLeastExponent - exponent) << 23);
     const auto mantissa = [&](std::uint32_t code) {
-        const std::uint32_t shift = std::min(exponent - (code >> 7), 15u);
-        return (2 * ((code & 127) | 128) + (1u << shift >> 1)) >> shift;
+        const auto scaled = std::bit_cast<float>(code << 16) * scale;
+        return static_cast<std::uint32_t>(static_cast<std::int32_t>(scaled + 0.5f));
     };
     return mantissa(r) | mantissa(g) << 9 | mantissa(b) << 18 | (exponent - kLeastExponent) << 27;
 }

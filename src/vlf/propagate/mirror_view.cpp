@@ -129,7 +129,7 @@ void MirrorViewTracer::arrive(const Path& path, const Ray& ray, const Hit& hit) 
                      positionAt(scene_, hit.triangle, hit.barycentric),
                      uvAt(scene_, hit.triangle, hit.barycentric)};
     Path next = path;
-    next.length += hit.t;
+    next.length += std::max(hit.t, rays_.epsilon());
     if (path.unfolding) view.distance = next.length;
     view.radiance += path.throughput * radianceSeen(at);
     if (at.material.isMirror()) reflect(next, ray.direction, at);
