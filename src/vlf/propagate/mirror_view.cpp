@@ -60,7 +60,7 @@ struct MirrorViewTracer::Arrival {
     Vec2 uv;
 };
 
-void MirrorViewTracer::start(const Vec3& toEye, bool planar) {
+void MirrorViewTracer::start(bool planar) {
     views_.assign(cells_.size(), {});
     paths_.clear();
     rayQueue_.clear();
@@ -71,7 +71,7 @@ void MirrorViewTracer::start(const Vec3& toEye, bool planar) {
         const Vec2 uv = uvAt(scene_, c.triangle, c.barycentric);
         const Vec3 mirror = mirrorReflectance(scene_, scene_.material(c.triangle), uv);
         rayQueue_.push_back(
-            {c.position + rays_.epsilon() * side, reflectAbove(-toEye, normal, side)});
+            {c.position + rays_.epsilon() * side, reflectAbove(-toEye_, normal, side)});
         paths_.push_back({i, mirror, 0, true, true});
     }
 }
@@ -115,11 +115,19 @@ void MirrorViewTracer::restart(Path path, const Ray& ray) {
     nextPaths_.push_back(path);
 }
 
+/// Whether the inside of a solid or the outside of the room comes between p and the eye.
+bool MirrorViewTracer::isHidden(const Vec3& p) const {
+    const Ray ray{p, toEye_};
+    const Hit hit = rays_.closest(ray);
+    return hit && chartHit(ray, hit) == kNoChart;
+}
+
 void MirrorViewTracer::arrive(const Path& path, const Ray& ray, const Hit& hit) {
     MirrorView& view = views_[path.cell];
     const std::uint32_t chart = hit ? chartHit(ray, hit) : kNoChart;
     if (chart == kNoChart && path.first && cells_[path.cell].guard) return restart(path, ray);
-    if (!hit && path.unfolding) view.distance = longest_;
+    if (!hit && path.unfolding && !(path.length == 0 && isHidden(ray.origin)))
+        view.distance = longest_;
     if (chart == kNoChart) return;
     const bool front = glm::dot(areaVector(scene_, hit.triangle), ray.direction) < 0;
     const Arrival at{hit,
@@ -145,13 +153,13 @@ void MirrorViewTracer::advance() {
     std::swap(rayQueue_, nextRays_);
 }
 
-void MirrorViewTracer::formImages(const Vec3& toEye) {
+void MirrorViewTracer::formImages() {
     for (std::size_t i = 0; i < cells_.size(); ++i) {
         const MirrorCell& c = cells_[i];
         if (views_[i].distance <= 0) continue;
         const Vec3 side = sideNormal(scene_, c.triangle, c.front);
         const Vec3 normal = mirrorNormal(scene_, c.triangle, c.barycentric, side, false);
-        const float cosine = std::max(glm::dot(normal, toEye), kMinCosine);
+        const float cosine = std::max(glm::dot(normal, toEye_), kMinCosine);
         const float curvature = curvatureOf(scene_, c.triangle, c.front);
         views_[i].distance = imageDistance(views_[i].distance, curvature, cosine, longest_);
     }
@@ -160,9 +168,10 @@ void MirrorViewTracer::formImages(const Vec3& toEye) {
 const std::vector<MirrorView>& MirrorViewTracer::trace(std::span<const MirrorCell> cells,
                                                        const Vec3& toEye, bool planar) {
     cells_ = cells;
-    start(toEye, planar);
+    toEye_ = toEye;
+    start(planar);
     for (int step = 0; step <= kMaxReflections && !rayQueue_.empty(); ++step) advance();
-    if (!planar) formImages(toEye);
+    if (!planar) formImages();
     for (MirrorView& v : views_) v.distance = std::min(v.distance, longest_);
     return views_;
 }

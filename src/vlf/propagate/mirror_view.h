@@ -15,7 +15,7 @@ namespace vlf {
 struct MirrorView {
     Vec3 radiance{0};    ///< leaving the mirror, W·m⁻²·sr⁻¹
     float distance = 0;  ///< from the mirror to the image of what is seen, metres; 0: nothing, the
-                         ///< cell lies within a solid
+                         ///< cell lies within a solid or outside the room
 };
 
 /// Distance behind a mirror of the image of a point at distance d > 0 before it: the mean of the
@@ -49,20 +49,22 @@ class MirrorViewTracer {
     };
     struct Arrival;
 
-    void start(const Vec3& toEye, bool planar);
+    void start(bool planar);
     std::uint32_t chartHit(const Ray& ray, const Hit& hit) const;
     void restart(Path path, const Ray& ray);
+    bool isHidden(const Vec3& p) const;
     void advance();
     void arrive(const Path& path, const Ray& ray, const Hit& hit);
     Vec3 radianceSeen(const Arrival& at) const;
     void reflect(Path path, const Vec3& direction, const Arrival& at);
-    void formImages(const Vec3& toEye);
+    void formImages();
 
     const Scene& scene_;
     const RayScene& rays_;
     const LightField& field_;
     float longest_;
     std::span<const MirrorCell> cells_;
+    Vec3 toEye_{0};
     std::vector<MirrorView> views_;
     std::vector<Path> paths_, nextPaths_;
     std::vector<Ray> rayQueue_, nextRays_;

@@ -121,12 +121,15 @@ float MirrorLookup::View::firstSurface(float tolerance) const {
     float seen = kFar;
     float in = 0;
     for (int i = 0; i < kMaxSteps; ++i) {
-        const RadianceElement* e = element(x, y);
-        if (!e) break;
-        const float s = depth(*e), out = std::min(nextX, nextY);
-        if (s < in - tolerance && seen < kFar) break;
-        seen = s;
-        if (s < out) break;
+        const float out = std::min(nextX, nextY);
+        if (const RadianceElement* e = element(x, y)) {
+            const float s = depth(*e);
+            if (s < in - tolerance && seen < kFar) break;
+            seen = s;
+            if (s < out) break;
+        } else if (seen < kFar) {
+            break;
+        }
         in = out;
         if (nextX < nextY)
             x += stepX, nextX += perCell.x;
@@ -223,7 +226,7 @@ Vec3 MirrorLookup::depthCorrected(const Views& views) const {
     std::transform(views.begin(), views.end(), depths.begin(),
                    [&](const View& view) { return view.firstSurface(tolerance_); });
     std::sort(depths.begin(), depths.end());
-    if (depths[0] == kFar) return Vec3(0);
+    if (depths[0] == kFar) return plain(views);
 
     CompressedMean layers;
     float left = 1;  // of the line of sight
