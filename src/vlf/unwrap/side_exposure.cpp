@@ -87,8 +87,13 @@ std::vector<OpenSides> findOpenSides(const Scene& scene, const RayScene& rays,
         followParticle(scene, rays, sources, groupOf, counters, RandomStream(seed, i));
     });
     std::vector<OpenSides> sides(groups.size());
-    for (std::size_t g = 0; g < groups.size(); ++g)
+    for (std::size_t g = 0; g < groups.size(); ++g) {
         sides[g] = classify(counters[g].front, counters[g].back);
+        // An emitting side is seen, whether or not other light reaches it.
+        const Material& material = scene.material(groups[g].triangles.front());
+        sides[g].front = sides[g].front || material.isEmitter();
+        sides[g].back = sides[g].back || material.emitsBothSides;
+    }
     return sides;
 }
 
