@@ -3,13 +3,13 @@
 #include "commands.h"
 #include "console.h"
 #include "picture_output.h"
+#include "scene_input.h"
 
 #include "vlf/base/error.h"
 #include "vlf/io/field_file.h"
 #include "vlf/propagate/bake.h"
 #include "vlf/propagate/bundle_sweep.h"
 #include "vlf/propagate/memory.h"
-#include "vlf/scene/import/import.h"
 #include "vlf/scene/scene_hash.h"
 
 #include <algorithm>
@@ -20,8 +20,8 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 #include <sys/resource.h>
+#include <nlohmann/json.hpp>
 
 namespace vlf::app {
 
@@ -51,13 +51,11 @@ BakeParams bakeParams(const Options& o, const Globals& globals) {
 }
 
 Scene readScene(const Options& options, const Globals& globals) {
-    ImportReport report;
-    Scene scene = importScene(options.scenes, report);
-    for (const std::string& warning : report.warnings) printWarning(globals.quiet, warning);
+    Scene scene = readScenes(options.scenes, globals);
     if (scene.cameras.empty()) scene.cameras.push_back(defaultCamera(scene));
-    const bool lit = std::any_of(scene.triangles.begin(), scene.triangles.end(), [&](const auto& t) {
-        return scene.materials[t.material].isEmitter();
-    });
+    const bool lit =
+        std::any_of(scene.triangles.begin(), scene.triangles.end(),
+                    [&](const auto& t) { return scene.materials[t.material].isEmitter(); });
     if (!lit) printWarning(globals.quiet, "the scene has no emitter: everything will be black");
     return scene;
 }
@@ -67,8 +65,6 @@ double peakMebibytes() {
     getrusage(RUSAGE_SELF, &usage);
     return static_cast<double>(usage.ru_maxrss) / 1024;
 }
-
-std::vector<float> numbers(const Vec3& v) { return {v.x, v.y, v.z}; }
 
 nlohmann::ordered_json toJson(const Options& options, const BakeReport& report,
                               const BakeRecord& record, double seconds) {
@@ -147,8 +143,8 @@ std::string checkBounces(const std::string& text) {
 }
 
 void addQuality(CLI::App& command, Options& o) {
-    CLI::Option_group* group = command.add_option_group(
-        "Quality", "A preset, and single settings that override it");
+    CLI::Option_group* group =
+        command.add_option_group("Quality", "A preset, and single settings that override it");
     group->add_option("--preset", o.preset, "draft, standard or high")
         ->capture_default_str()
         ->check(CLI::IsMember({"draft", "standard", "high"}));
@@ -163,8 +159,9 @@ void addQuality(CLI::App& command, Options& o) {
     group->add_option("--bounces", o.bounces, "auto: until the light has come to rest; or a number")
         ->capture_default_str()
         ->check(checkBounces);
-    group->add_option("--radiance-directions", o.radianceDirections,
-                      "Lines of the mirrors' radiance field (0: none)")
+    group
+        ->add_option("--radiance-directions", o.radianceDirections,
+                     "Lines of the mirrors' radiance field (0: none)")
         ->check(CLI::IsMember({0, 129, 513, 2049, 8193}));
     group->add_option("--radiance-cells", o.radianceCells, "Its cells along one side")
         ->check(CLI::Range(16, 4096));

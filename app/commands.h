@@ -10,7 +10,7 @@ namespace vlf::app {
 
 /// Options every subcommand has.
 struct Globals {
-    int threads = 0;         ///< 0: one per core
+    int threads = 0;  ///< 0: one per core
     std::uint64_t seed = 0;
     bool quiet = false;
     bool verbose = false;

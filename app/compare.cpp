@@ -1,9 +1,9 @@
 // vlf compare: how far a picture is from a reference.
 
 #include "commands.h"
+#include "picture_output.h"
 
 #include "vlf/base/error.h"
-#include "vlf/base/file.h"
 #include "vlf/image/flip.h"
 #include "vlf/image/heat_map.h"
 #include "vlf/image/image_io.h"
@@ -88,7 +88,7 @@ const char* toneName(ToneCurve tone) {
     return tone == ToneCurve::filmic ? "filmic" : "clamp";
 }
 
-void writeJson(const Options& options, const Report& report) {
+nlohmann::ordered_json toJson(const Options& options, const Report& report) {
     nlohmann::ordered_json json{
         {"test", options.test},
         {"reference", options.reference},
@@ -103,10 +103,7 @@ void writeJson(const Options& options, const Report& report) {
         {"flip", report.flip.mean},
     };
     if (!options.mask.empty()) json["mask"] = options.mask;
-    // Names of files need not be UTF-8.
-    const std::string text =
-        json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
-    writeFile(options.json, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+    return json;
 }
 
 void printRow(const char* name, const std::string& value, bool explain, const char* meaning) {
@@ -135,16 +132,8 @@ void run(const Options& options, const Globals& globals) {
     const Report report = compare(options);
     if (!options.heatMap.empty())
         writePng(options.heatMap, heatMap(report.flip.error, report.width, report.height));
-    if (!options.json.empty()) writeJson(options, report);
+    if (!options.json.empty()) writeJson(options.json, toJson(options, report));
     if (!globals.quiet) printReport(options, report, globals.verbose);
-}
-
-/// Empty if the text is an exposure, else what is wrong with it (a CLI11 validator).
-std::string exposureProblem(const std::string& text) {
-    double value = 0;
-    if (text == "auto" || (CLI::detail::lexical_cast(text, value) && std::abs(value) <= 100))
-        return {};
-    return "must be auto or a number of EV between -100 and 100";
 }
 
 }  // namespace

@@ -63,9 +63,9 @@ void ConsoleProgress::draw(double fraction) {
     constexpr int kWidth = 30;
     const int filled = static_cast<int>(kWidth * fraction);
     const double elapsed = seconds(std::chrono::steady_clock::now() - stageStart_);
-    const std::string left =
-        fraction > 0.01 && fraction < 1 ? fmt::format("{:.0f} s left", elapsed / fraction - elapsed)
-                                        : fmt::format("{:.1f} s", elapsed);
+    const std::string left = fraction > 0.01 && fraction < 1
+                                 ? fmt::format("{:.0f} s left", elapsed / fraction - elapsed)
+                                 : fmt::format("{:.1f} s", elapsed);
     fmt::print(stderr, "\r{:<22} [{:=<{}}{:<{}}] {:3.0f} %  {:<14}", stage_, "", filled, "",
                kWidth - filled, 100 * fraction, left);
 }

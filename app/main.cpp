@@ -23,28 +23,13 @@ void addGlobals(CLI::App& app, vlf::app::Globals& globals) {
 
 void addCommands(CLI::App& app, const vlf::app::Globals& globals) {
     using namespace vlf::app;
-    (void)globals;
-#ifdef VLF_HAS_BAKE
     addBake(app, globals);
-#endif
-#ifdef VLF_HAS_INFO
     addInfo(app, globals);
-#endif
-#ifdef VLF_HAS_RENDER
     addRender(app, globals);
-#endif
-#ifdef VLF_HAS_REFERENCE
     addReference(app, globals);
-#endif
-#ifdef VLF_HAS_COMPARE
     addCompare(app, globals);
-#endif
-#ifdef VLF_HAS_SCENE
     addScene(app, globals);
-#endif
-#ifdef VLF_HAS_SHEET
     addSheet(app, globals);
-#endif
 }
 
 int run(CLI::App& app, int argc, char** argv) {
@@ -86,7 +71,8 @@ int main(int argc, char** argv) {
     addGlobals(app, globals);
     // Subcommand callbacks run within parse(); the thread limit is in force before the first.
     std::unique_ptr<vlf::ThreadLimit> limit;
-    app.parse_complete_callback([&] { limit = std::make_unique<vlf::ThreadLimit>(globals.threads); });
+    app.parse_complete_callback(
+        [&] { limit = std::make_unique<vlf::ThreadLimit>(globals.threads); });
     addCommands(app, globals);
     return run(app, argc, argv);
 }

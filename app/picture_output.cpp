@@ -24,15 +24,14 @@ std::string lowerExtension(const std::string& path) {
     return extension;
 }
 
-/// Empty if the text is an exposure, else what is wrong with it (a CLI11 validator).
+}  // namespace
+
 std::string exposureProblem(const std::string& text) {
     double value = 0;
     if (text == "auto" || (CLI::detail::lexical_cast(text, value) && std::abs(value) <= 100))
         return {};
     return "must be auto or a number of EV between -100 and 100";
 }
-
-}  // namespace
 
 std::string pictureNameProblem(const std::string& path) {
     const std::string extension = lowerExtension(path);
@@ -71,6 +70,10 @@ void writePicture(const PictureOptions& options, const Image& radiance,
     const float exposure =
         options.exposure == "auto" ? autoExposure(radiance) : std::stof(options.exposure);
     writePng(options.path, toneMap(radiance, exposure, options.tone));
+}
+
+std::vector<float> numbers(const Vec3& v) {
+    return {v.x, v.y, v.z};
 }
 
 void writeJson(const std::string& path, const nlohmann::ordered_json& report) {

@@ -5,6 +5,7 @@
 #include "vlf/image/tone_map.h"
 
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json_fwd.hpp>
@@ -24,12 +25,18 @@ std::string pictureNameProblem(const std::string& path);
 /// `orReport`: the output may be a .json as well.
 void addPictureOptions(CLI::App& command, PictureOptions& options, bool orReport = false);
 
+/// Empty if the text is an exposure, else what is wrong with it (a CLI11 validator).
+std::string exposureProblem(const std::string& text);
+
 /// Throws FileError if the folder of `path` is missing: to be asked before long work.
 void requireFolderOf(const std::string& path);
 
 /// Writes radiance to the file the options name; `attributes` go into the header of an EXR.
 void writePicture(const PictureOptions& options, const Image& radiance,
                   const ImageAttributes& attributes = {});
+
+/// The components, for a report.
+std::vector<float> numbers(const Vec3& v);
 
 /// Writes a report, indented.
 void writeJson(const std::string& path, const nlohmann::ordered_json& report);

@@ -5,10 +5,10 @@
 #include "console.h"
 #include "picture_output.h"
 #include "reference_irradiance.h"
+#include "scene_input.h"
 
 #include "vlf/base/error.h"
 #include "vlf/render/cpu/path_tracer.h"
-#include "vlf/scene/import/import.h"
 
 #include <memory>
 #include <string>
@@ -32,13 +32,6 @@ struct Options {
     std::string field;  // .vlf whose irradiance is to be measured
     int texels = 0;
 };
-
-Scene readScene(const Options& options, const Globals& globals) {
-    ImportReport report;
-    Scene scene = importScene(options.scenes, report);
-    for (const std::string& warning : report.warnings) printWarning(globals.quiet, warning);
-    return scene;
-}
 
 PathTraceParams traceParams(const Options& options, const Globals& globals, const Scene& scene) {
     PathTraceParams params;
@@ -64,10 +57,6 @@ const char* stopName(PathTraceStop stop) {
         default:
             return "cancelled";
     }
-}
-
-std::vector<float> numbers(const Vec3& v) {
-    return {v.x, v.y, v.z};
 }
 
 nlohmann::ordered_json toJson(const Camera& camera) {
@@ -117,7 +106,7 @@ void run(const Options& options, const Globals& globals) {
         throw CLI::ValidationError("--output", problem);
     for (const std::string& path : {options.picture.path, options.variance, options.json})
         requireFolderOf(path);
-    const Scene scene = readScene(options, globals);
+    const Scene scene = readScenes(options.scenes, globals);
     const PathTraceParams params = traceParams(options, globals, scene);
     PathTraceResult result;
     {

@@ -32,13 +32,13 @@ void requireSameScene(const IrradianceOptions& options, const BakedRoom& room) {
 
 /// Texels spread evenly over the atlas: one at random of each of `count` equal strata.
 std::vector<std::size_t> chooseTexels(std::size_t available, int count, std::uint64_t seed) {
-    const std::size_t n =
-        count > 0 ? std::min<std::size_t>(count, available) : available;
+    const std::size_t n = count > 0 ? std::min<std::size_t>(count, available) : available;
     std::vector<std::size_t> chosen(n);
     RandomStream random(seed, 0x7e8e1);
     for (std::size_t i = 0; i < n; ++i) {
         const std::size_t begin = i * available / n, end = (i + 1) * available / n;
-        chosen[i] = begin + static_cast<std::size_t>(random.next() * static_cast<float>(end - begin));
+        chosen[i] =
+            begin + static_cast<std::size_t>(random.next() * static_cast<float>(end - begin));
     }
     return chosen;
 }
@@ -50,7 +50,8 @@ struct Selection {
     std::vector<float> area;
 };
 
-Selection select(const BakedRoom& room, const Unwrap& unwrap, const std::vector<std::size_t>& texels) {
+Selection select(const BakedRoom& room, const Unwrap& unwrap,
+                 const std::vector<std::size_t>& texels) {
     Selection s;
     for (const std::size_t i : texels) {
         const std::uint32_t chart = unwrap.texelChart[i];
@@ -69,8 +70,6 @@ Selection select(const BakedRoom& room, const Unwrap& unwrap, const std::vector<
     }
     return s;
 }
-
-nlohmann::ordered_json numbers(const Vec3& v) { return {v.x, v.y, v.z}; }
 
 nlohmann::ordered_json toJson(const IrradianceOptions& options, const IrradianceError& error,
                               const Selection& s, const std::vector<IrradianceEstimate>& truth,
@@ -107,8 +106,8 @@ void runIrradianceReference(const IrradianceOptions& options, const Globals& glo
     const RayScene rays(room.scene);
     const Unwrap unwrap = restoreUnwrap(room.scene, rays, field.charts, field.triangleCharts,
                                         {field.atlas.width, field.atlas.height});
-    const Selection s = select(
-        room, unwrap, chooseTexels(unwrap.texels.size(), options.texels, globals.seed));
+    const Selection s =
+        select(room, unwrap, chooseTexels(unwrap.texels.size(), options.texels, globals.seed));
     const std::vector<TexelArea> areas(s.points.begin(), s.points.end());
     const auto isOpen = [&](std::uint32_t triangle, bool front) {
         const TriangleCharts& c = field.triangleCharts[triangle];
@@ -124,10 +123,11 @@ void runIrradianceReference(const IrradianceOptions& options, const Globals& glo
     const IrradianceError error = compareIrradiance(s.baked, truth, s.area);
     writeJson(options.output, toJson(options, error, s, truth, cpuSeconds));
     if (!globals.quiet)
-        fmt::print("{} texels: relative RMSE {:.3f} %, bias {:+.4f} % (± {:.4f}), mean relative "
-                   "error {:.2f} %; the truth's own error {:.3f} %\n",
-                   error.texels, 100 * error.relativeRmse, 100 * error.bias, 100 * error.biasError,
-                   100 * error.meanRelative, 100 * error.truthError);
+        fmt::print(
+            "{} texels: relative RMSE {:.3f} %, bias {:+.4f} % (± {:.4f}), mean relative "
+            "error {:.2f} %; the truth's own error {:.3f} %\n",
+            error.texels, 100 * error.relativeRmse, 100 * error.bias, 100 * error.biasError,
+            100 * error.meanRelative, 100 * error.truthError);
 }
 
 }  // namespace vlf::app

@@ -59,7 +59,8 @@ struct Receiver {
     std::span<const SurfacePoint> points;
     Vec3 centre{0}, normal{0};
     float radius = 0;
-    float side = 1;  // -1 where the texels face against the winding normal
+    bool planar = true;  // else normals vary so much that the mean says little
+    float side = 1;      // -1 where the texels face against the winding normal
     std::uint64_t key = 0;
 };
 
@@ -114,6 +115,7 @@ class DirectGatherer {
         const std::uint32_t triangle = r.points[0].triangle;
         r.side = unwrap_.triangleCharts[triangle].front == unwrap_.texelChart[texel] ? 1.0f : -1.0f;
         r.normal = chart.normal;
+        r.planar = chart.planar;
         for (const SurfacePoint& p : r.points)
             r.centre += positionAt(scene_, p.triangle, p.barycentric);
         r.centre /= static_cast<float>(r.points.size());
@@ -129,7 +131,7 @@ class DirectGatherer {
         const float reach = light.radius + r.radius;
         const float squared = std::max(glm::dot(toLight, toLight), 0.25f * reach * reach);
         const float distance = std::sqrt(squared), slack = std::min(1.0f, reach / distance);
-        if (!curvedSlack(r, light) && glm::dot(r.normal, toLight) < -reach) return 0;
+        if (r.planar && glm::dot(r.normal, toLight) < -reach) return 0;
         const float cosReceiver = glm::dot(r.normal, toLight) / distance;
         const float cosLight =
             -glm::dot(image.imageFromWorld.vector(light.normal), toLight) / distance;
@@ -141,15 +143,6 @@ class DirectGatherer {
         const float emitting = std::clamp(cosLight + 0.5f * slack + spread, 0.02f, 1.0f);
         return luminance(light.radiance * image.throughput) * light.area * facing * emitting /
                squared;
-    }
-
-    /// Whether normals within the texel vary so much that its mean says little.
-    bool curvedSlack(const Receiver& r, const Light&) const {
-        return !unwrap_
-                    .charts[unwrap_.triangleCharts[r.points[0].triangle].front == kNoChart
-                                ? unwrap_.triangleCharts[r.points[0].triangle].back
-                                : unwrap_.triangleCharts[r.points[0].triangle].front]
-                    .planar;
     }
 
     /// Whether lines from the receiver to the image may cross the rectangle of the first mirror.

@@ -1,21 +1,13 @@
 #include "vlf/scene/texture.h"
 
+#include "vlf/image/srgb.h"
+
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace vlf {
 
 namespace {
-
-std::array<float, 256> makeSrgbTable() {
-    std::array<float, 256> table{};
-    for (int i = 0; i < 256; ++i) {
-        const float c = i / 255.0f;
-        table[i] = c <= 0.04045f ? c / 12.92f : std::pow((c + 0.055f) / 1.055f, 2.4f);
-    }
-    return table;
-}
 
 int wrapped(int i, int size, Wrap mode) {
     if (mode == Wrap::clamp) return std::clamp(i, 0, size - 1);
@@ -34,11 +26,10 @@ float reduced(float t, Wrap mode) {
 }  // namespace
 
 Vec3 Texture::pixel(int x, int y) const {
-    static const std::array<float, 256> decode = makeSrgbTable();
     const std::size_t i = static_cast<std::size_t>(y) * width + x;
     if (srgb8.empty()) return linear[i];
     const std::uint8_t* p = &srgb8[4 * i];
-    return {decode[p[0]], decode[p[1]], decode[p[2]]};
+    return {linearFromSrgb8(p[0]), linearFromSrgb8(p[1]), linearFromSrgb8(p[2])};
 }
 
 Vec3 Texture::sample(const Vec2& uv) const {
