@@ -150,8 +150,9 @@ class DirectGatherer {
         const Chart& mirror = unwrap_.charts[image.mirror[0]];
         const Light& light = sources_.lights[image.light];
         const Vec3 centre = image.imageFromWorld.point(light.centre);
-        const float before = sources_.mirrorDistance(image.mirror[0], r.centre);
-        const float behind = -sources_.mirrorDistance(image.mirror[0], centre);
+        const float plane = sources_.mirrorOffset[image.mirror[0]];
+        const float before = glm::dot(mirror.normal, r.centre) - plane;
+        const float behind = plane - glm::dot(mirror.normal, centre);
         if (before < -r.radius || behind < -light.radius) return false;
         const float share = std::max(before, 0.0f) / std::max(before + behind, 1e-20f);
         const Vec2 crossing = mirror.texelCoordinates(r.centre + share * (centre - r.centre));
@@ -215,7 +216,7 @@ class DirectGatherer {
         shadowRays_.clear();
         for (int j = 0; j < n; ++j) {
             const auto stratum = static_cast<std::size_t>((j + rotation) / n * r.points.size());
-            const Point p = surfacePoint(r, (stratum * 7 + r.key) % r.points.size());
+            const Point p = surfacePoint(r, (stratum + r.key) % r.points.size());
             const LightSample s = sampleLight(scene_, light, r2Point(j, shift));
             const float g = geometryTerm(p, image.imageFromWorld.point(s.point),
                                          image.imageFromWorld.vector(s.normal)) /

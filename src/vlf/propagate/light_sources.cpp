@@ -179,6 +179,17 @@ bool mirrorSees(const Unwrap& unwrap, std::uint32_t m, const Vec3& point, const 
     return glm::dot(centre - point, unwrap.charts[m].normal) > -light.radius;
 }
 
+std::vector<std::uint32_t> chartsOfMirrorTexels(const Scene& scene, const Unwrap& unwrap) {
+    std::vector<std::uint32_t> chartOf(unwrap.atlasSize(), kNoChart);
+    for (std::uint32_t c = 0; c < unwrap.charts.size(); ++c) {
+        const Chart& chart = unwrap.charts[c];
+        if (!scene.materials[chart.material].isMirror()) continue;
+        for (std::uint32_t y = chart.y; y < chart.y + chart.height; ++y)
+            std::fill_n(chartOf.begin() + y * unwrap.atlasWidth + chart.x, chart.width, c);
+    }
+    return chartOf;
+}
+
 }  // namespace
 
 Affine reflection(const Vec3& point, const Vec3& normal) {
@@ -191,7 +202,7 @@ LightSources findLightSources(const Scene& scene, const Unwrap& unwrap) {
     sources.lights = findLights(scene, unwrap);
     sources.planarMirror.assign(unwrap.charts.size(), 0);
     sources.mirrorOffset.assign(unwrap.charts.size(), 0);
-    for (const Chart& c : unwrap.charts) sources.mirrorNormal.push_back(c.normal);
+    sources.mirrorChart = chartsOfMirrorTexels(scene, unwrap);
     std::map<std::uint32_t, Vec3> mirrors;  // planar mirror chart -> a point of it
     for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) {
         if (!scene.material(t).isMirror()) continue;

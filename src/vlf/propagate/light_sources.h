@@ -64,13 +64,8 @@ struct LightSources {
     std::vector<LightImage> images;
     std::vector<std::uint8_t> planarMirror;  ///< per chart
     std::vector<float> mirrorOffset;         ///< per chart: of a planar mirror's plane
-    std::vector<Vec3> mirrorNormal;          ///< per chart
+    std::vector<std::uint32_t> mirrorChart;  ///< chart of each atlas texel of a mirror
     int imageDepth = 0;  ///< chains of up to this many planar mirrors are in `images`
-
-    /// Signed distance of p from the plane of planar mirror chart m, positive before it.
-    float mirrorDistance(std::uint32_t m, const Vec3& p) const {
-        return glm::dot(mirrorNormal[m], p) - mirrorOffset[m];
-    }
 
     /// Whether emission seen over these mirrors (charts, in order) is already in the direct light.
     bool covers(int depth, bool allPlanar) const { return allPlanar && depth <= imageDepth; }

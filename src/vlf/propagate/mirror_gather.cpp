@@ -18,18 +18,6 @@ std::uint32_t texelAt(const Unwrap& unwrap, std::uint32_t chartIndex, const Vec3
 
 }  // namespace
 
-MirrorGatherer::MirrorGatherer(const Scene& scene, const RayScene& rays, const Unwrap& unwrap,
-                               const LightSources& sources)
-    : scene_(scene), rays_(rays), unwrap_(unwrap), sources_(sources) {
-    chartOf_.assign(unwrap.atlasSize(), kNoChart);
-    for (std::uint32_t c = 0; c < unwrap.charts.size(); ++c) {
-        const Chart& chart = unwrap.charts[c];
-        if (!scene.materials[chart.material].isMirror()) continue;
-        for (std::uint32_t y = chart.y; y < chart.y + chart.height; ++y)
-            std::fill_n(chartOf_.begin() + y * unwrap.atlasWidth + chart.x, chart.width, c);
-    }
-}
-
 /// A mirror whose reflection needs no look at the surface: flat and without texture.
 bool MirrorGatherer::isPlainMirror(std::uint32_t chart) const {
     return unwrap_.charts[chart].planar &&
@@ -48,7 +36,7 @@ void MirrorGatherer::start(const ParallelSubfield& subfield,
         const Vec3 direction = s.forward ? subfield.direction : -subfield.direction;
         const Vec3 cell =
             origin + (perCell * s.x) * subfield.xAxis + (perCell * s.y) * subfield.yAxis;
-        const std::uint32_t chart = chartOf_[s.mirror];
+        const std::uint32_t chart = sources_.mirrorChart[s.mirror];
         if (isPlainMirror(chart)) {
             const Vec3& n = unwrap_.charts[chart].normal;
             queue_.push_back({cell + s.mirrorDepth * subfield.direction + rays_.epsilon() * n,

@@ -18,7 +18,8 @@ inline constexpr int kMaxReflections = 16;
 class MirrorGatherer {
   public:
     MirrorGatherer(const Scene& scene, const RayScene& rays, const Unwrap& unwrap,
-                   const LightSources& sources);
+                   const LightSources& sources)
+        : scene_(scene), rays_(rays), unwrap_(unwrap), sources_(sources) {}
 
     /// `radiance`: diffuse radiance leaving each texel. Emission is added where the direct light
     /// does not have it already (LightSources::covers).
@@ -45,7 +46,6 @@ class MirrorGatherer {
     const RayScene& rays_;
     const Unwrap& unwrap_;
     const LightSources& sources_;
-    std::vector<std::uint32_t> chartOf_;  ///< of each atlas texel
     std::vector<Path> paths_, nextPaths_;
     std::vector<Ray> queue_, nextQueue_;
     std::vector<Hit> hits_;
