@@ -5,6 +5,7 @@
 
 #include "vlf/math/vector.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -17,7 +18,7 @@ struct Chart {
     /// in [0, width] x [0, height]; texel (i, j) covers [i, i+1) x [j, j+1).
     Vec3 uAxis, vAxis;  ///< texels per metre
     float uOffset = 0, vOffset = 0;
-    Vec3 normal;        ///< unit; the side the texels face
+    Vec3 normal;                          ///< unit; the side the texels face
     std::uint32_t x = 0, y = 0;           ///< atlas position of texel (0, 0)
     std::uint32_t width = 0, height = 0;  ///< texels, without the gutter
     std::uint32_t material = 0;
@@ -26,6 +27,9 @@ struct Chart {
     Vec2 texelCoordinates(const Vec3& p) const {
         return {glm::dot(uAxis, p) + uOffset, glm::dot(vAxis, p) + vOffset};
     }
+
+    /// Longer side of a texel, metres.
+    float texelSize() const { return 1 / std::min(glm::length(uAxis), glm::length(vAxis)); }
 };
 
 /// Which chart holds each side of a display triangle; kNoChart for a side that needs none (the

@@ -30,7 +30,7 @@ struct BakeParams {
     double tolerance = 1e-3;        ///< of the light still missing, relative
     int radianceDirections = 2049;  ///< of the radiance field of mirror charts; 0: none
     int radianceCells = 256;
-    int tileSize = 8;               ///< m, a power of two
+    int tileSize = 8;  ///< m, a power of two
     std::uint64_t seed = 0;
 };
 

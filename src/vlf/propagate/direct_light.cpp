@@ -119,7 +119,7 @@ class DirectGatherer {
         for (const SurfacePoint& p : r.points)
             r.centre += positionAt(scene_, p.triangle, p.barycentric);
         r.centre /= static_cast<float>(r.points.size());
-        r.radius = chart.planar ? unwrap_.texelSize : 2 * unwrap_.texelSize;
+        r.radius = chart.planar ? chart.texelSize() : 2 * chart.texelSize();
         r.key = unwrap_.texels[texel];
         return r;
     }
@@ -243,13 +243,17 @@ class DirectGatherer {
         return light.uniform && light.planar && light.triangles.size() <= kMaxAnalyticTriangles;
     }
 
+    /// ∫ (n·ω)⁺ / π over the directions above the surface, n being the shading normal. Divided by
+    /// it the receiver's response integrates to one, as that of the bundles' ratio does.
+    static float lobe(const Point& p) { return 0.5f * (1 + glm::dot(p.shading, p.geometric)); }
+
     static float geometryTerm(const Point& p, const Vec3& y, const Vec3& lightNormal) {
         const Vec3 d = y - p.position;
         const float squared = glm::dot(d, d);
         const float cosReceiver = glm::dot(p.shading, d), cosLight = -glm::dot(lightNormal, d);
         if (cosReceiver <= 0 || glm::dot(p.geometric, d) <= 0) return 0;
         if (cosLight <= kGrazing * std::sqrt(squared)) return 0;
-        return cosReceiver * cosLight / (squared * squared);
+        return cosReceiver * cosLight / (squared * squared * lobe(p));
     }
 
     /// Mean form factor over a few of the texel's points.
@@ -268,7 +272,8 @@ class DirectGatherer {
                 const Vec3 n = image.imageFromWorld.vector(light.normal);
                 const Vec3 fromLight = p.position - corner[0];
                 if (glm::dot(n, fromLight) <= kGrazing * glm::length(fromLight)) continue;
-                sum += triangleFormFactor(p.position, p.shading, corner[0], corner[1], corner[2]);
+                sum += triangleFormFactor(p.position, p.shading, corner[0], corner[1], corner[2]) /
+                       lobe(p);
             }
         }
         return sum / static_cast<float>(count);

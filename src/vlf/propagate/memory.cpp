@@ -1,6 +1,7 @@
 #include "vlf/propagate/memory.h"
 
 #include "vlf/base/error.h"
+#include "vlf/unwrap/texel_size.h"
 
 #include <cmath>
 #include <cstdio>
@@ -17,18 +18,11 @@ constexpr double kAtlasOverhead = 1.3;     // gutters, gaps, texels cut by edges
 constexpr double kElementBytes = 6;        // RadianceElement
 constexpr double kRadianceOverhead = 1.4;  // whole tiles, guard band; measured for m = 8
 
-struct Areas {
-    double all = 0, mirror = 0;
-};
-
-Areas areasOf(const Scene& scene) {
-    Areas areas;
-    for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) {
-        const double a = area(scene, t);
-        areas.all += a;
-        if (scene.material(t).isMirror()) areas.mirror += a;
-    }
-    return areas;
+double mirrorArea(const Scene& scene) {
+    double sum = 0;
+    for (std::uint32_t t = 0; t < scene.triangles.size(); ++t)
+        if (scene.material(t).isMirror()) sum += area(scene, t);
+    return sum;
 }
 
 double gibibytes(double bytes) {
@@ -44,18 +38,15 @@ std::string text(double value) {
 }  // namespace
 
 MemoryNeed predictMemory(const Scene& scene, const BakeParams& params) {
-    const Areas areas = areasOf(scene);
     const double texels =
-        params.texelSize > 0
-            ? areas.all / (static_cast<double>(params.texelSize) * params.texelSize)
-            : params.texelBudget;
+        params.texelSize > 0 ? texelsNeeded(scene, params.texelSize) : params.texelBudget;
     MemoryNeed need;
     need.transport =
         static_cast<std::uint64_t>(kBase + kAtlasOverhead * kPerTexel * texels +
                                    kPerTriangle * static_cast<double>(scene.triangles.size()));
     // Half of all directions see a side, at a mean cosine of one half.
     const double cell = 2.0 * boundingSphere(scene).radius / (params.radianceCells - 1);
-    const double elements = 0.5 * params.radianceDirections * areas.mirror / (cell * cell);
+    const double elements = 0.5 * params.radianceDirections * mirrorArea(scene) / (cell * cell);
     need.radiance = static_cast<std::uint64_t>(kRadianceOverhead * kElementBytes * elements);
     return need;
 }

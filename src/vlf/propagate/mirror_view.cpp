@@ -1,6 +1,6 @@
 #include "vlf/propagate/mirror_view.h"
 
-#include "vlf/propagate/mirror_gather.h"
+#include "vlf/propagate/ray_gather.h"
 
 #include <algorithm>
 

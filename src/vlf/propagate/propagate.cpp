@@ -15,7 +15,7 @@
 #include "vlf/math/sampling.h"
 #include "vlf/propagate/bake.h"
 #include "vlf/propagate/convergence.h"
-#include "vlf/propagate/mirror_gather.h"
+#include "vlf/propagate/ray_gather.h"
 
 #include <algorithm>
 
@@ -26,6 +26,9 @@ namespace {
 /// Directions are dealt to this many accumulators, added up in order: the sum is the same for any
 /// number of threads.
 constexpr std::size_t kAccumulators = 8;
+
+constexpr int kMinSamples = 64;
+constexpr std::size_t kTexelsPerBlock = 256;
 
 /// L = ρ E / π for every texel.
 TexelBuffer emit(const BakeState& state) {
@@ -53,7 +56,7 @@ TexelBuffer sweep(BakeState& state, const DirectionSet& directions, int cells, i
     ProgressCounter done(progress, lines);
     parallelFor(kAccumulators, [&](std::size_t a) {
         SweepScratch scratch;
-        MirrorGatherer mirrors(state.scene, state.rays, state.unwrap, state.sources);
+        RayGatherer mirrors(state.scene, state.rays, state.unwrap, state.sources);
         std::vector<MirrorSight> sights;
         for (std::size_t line = a; line < lines; line += kAccumulators) {
             RandomStream random(seed, line);
@@ -64,12 +67,29 @@ TexelBuffer sweep(BakeState& state, const DirectionSet& directions, int cells, i
             sights.clear();
             exchanges[a] +=
                 sweepBundle(state.faces, subfield, radiance, gathered[a], sights, scratch);
-            mirrors.gather(subfield, sights, radiance, gathered[a]);
+            mirrors.gatherFromMirrors(subfield, sights, radiance, gathered[a]);
             done.step();
         }
     });
     for (const std::uint64_t n : exchanges) state.report.exchanges += n;
     return sumInOrder(gathered);
+}
+
+/// Texels that fewer rays of the bundles met, small ones and those at the ends of charts, gather
+/// the rest by rays of their own.
+void topUp(const BakeState& state, const TexelBuffer& radiance, TexelBuffer& gathered) {
+    const std::vector<std::uint32_t>& texels = state.unwrap.texels;
+    const std::size_t blocks = (texels.size() + kTexelsPerBlock - 1) / kTexelsPerBlock;
+    parallelFor(blocks, [&](std::size_t block) {
+        RayGatherer gatherer(state.scene, state.rays, state.unwrap, state.sources);
+        const std::size_t end = std::min(texels.size(), (block + 1) * kTexelsPerBlock);
+        for (std::size_t i = block * kTexelsPerBlock; i < end; ++i) {
+            const int missing = kMinSamples - static_cast<int>(gathered.weight(texels[i]));
+            if (missing <= 0) continue;
+            RandomStream random(mixBits(state.params.seed), texels[i]);
+            gatherer.gatherFromTexel(i, missing, random, radiance, gathered);
+        }
+    });
 }
 
 /// E = E_direct + π ΣL / n. Texels no ray met keep what they had.
@@ -87,8 +107,9 @@ void deposit(BakeState& state, const TexelBuffer& gathered) {
 
 void propagateOnce(BakeState& state, int directions, int cells, int rotation, Progress& progress) {
     const TexelBuffer radiance = emit(state);
-    const TexelBuffer gathered =
+    TexelBuffer gathered =
         sweep(state, DirectionSet(directions), cells, rotation, radiance, progress);
+    if (rotation < 0) topUp(state, radiance, gathered);
     deposit(state, gathered);
     ++state.report.sweeps;
 }

@@ -29,8 +29,9 @@ class TexelBuffer {
         values_[4 * i] = rgb.x, values_[4 * i + 1] = rgb.y, values_[4 * i + 2] = rgb.z;
         values_[4 * i + 3] = weight;
     }
-    void addRgb(std::size_t i, const Vec3& rgb) {
+    void add(std::size_t i, const Vec3& rgb, float weight) {
         values_[4 * i] += rgb.x, values_[4 * i + 1] += rgb.y, values_[4 * i + 2] += rgb.z;
+        values_[4 * i + 3] += weight;
     }
     void clear() { std::fill(values_.begin(), values_.end(), 0.0f); }
 

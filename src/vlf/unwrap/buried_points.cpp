@@ -47,8 +47,8 @@ class BurialTest {
 
   private:
     bool sees(std::size_t texel, const SurfacePoint& a, const SurfacePoint& b) const {
-        const Vec3& n = unwrap_.charts[unwrap_.texelChart[texel]].normal;
-        const Vec3 lift = std::max(2 * rays_.epsilon(), kLift * unwrap_.texelSize) * n;
+        const Chart& chart = unwrap_.charts[unwrap_.texelChart[texel]];
+        const Vec3 lift = std::max(2 * rays_.epsilon(), kLift * chart.texelSize()) * chart.normal;
         const Vec3 p = positionAt(scene_, a.triangle, a.barycentric) + lift;
         const Vec3 q = positionAt(scene_, b.triangle, b.barycentric) + lift;
         return !rays_.occluded({p, q - p, 0, 1});

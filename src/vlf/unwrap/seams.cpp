@@ -25,7 +25,7 @@ std::optional<SeamLink> findLink(const Scene& scene, const RayScene& rays, const
                                  const SurfacePoint& neighbour) {
     const Chart& chart = unwrap.charts[chartIndex];
     const Vec3 anchor = positionAt(scene, neighbour.triangle, neighbour.barycentric);
-    const float reach = kReach * unwrap.texelSize;
+    const float reach = kReach * chart.texelSize();
     const Vec3 p = pointOnPlane(chart, centre, anchor);
     const Hit hit = rays.closest({p + reach * chart.normal, -chart.normal, 0, 2 * reach});
     if (!hit) return std::nullopt;

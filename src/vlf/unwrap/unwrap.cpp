@@ -8,9 +8,9 @@
 #include "vlf/unwrap/pack_atlas.h"
 #include "vlf/unwrap/seams.h"
 #include "vlf/unwrap/side_exposure.h"
+#include "vlf/unwrap/texel_size.h"
 
 #include <algorithm>
-#include <cmath>
 #include <string>
 
 namespace vlf {
@@ -27,14 +27,8 @@ std::vector<std::uint32_t> groupOfTriangles(const std::vector<ChartGroup>& group
     return groupOf;
 }
 
-double sceneArea(const Scene& scene) {
-    double sum = 0;
-    for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) sum += area(scene, t);
-    return sum;
-}
-
 void checkSize(const Scene& scene, float texelSize) {
-    const double texels = sceneArea(scene) / (static_cast<double>(texelSize) * texelSize);
+    const double texels = texelsNeeded(scene, texelSize);
     if (!(texels < kMaxTexels))
         throw InputError("texels of " + std::to_string(texelSize) + " m would be " +
                          std::to_string(static_cast<long long>(texels)) +
@@ -46,7 +40,8 @@ void layOutCharts(const Scene& scene, const std::vector<ChartGroup>& groups,
                   const std::vector<OpenSides>& sides, Unwrap& result) {
     std::vector<Chart> layouts(groups.size());
     parallelFor(groups.size(), 16, [&](std::size_t g) {
-        layouts[g] = layOutChart(scene, groups[g], result.texelSize);
+        layouts[g] = layOutChart(scene, groups[g],
+                                 texelSizeOf(scene, groups[g].triangles, result.texelSize));
     });
     result.triangleCharts.resize(scene.triangles.size());
     for (std::uint32_t g = 0; g < groups.size(); ++g) {
@@ -134,10 +129,6 @@ void findTexels(const Scene& scene, const RayScene& rays, Unwrap& result) {
 
 }  // namespace
 
-float texelSizeForBudget(const Scene& scene, double budget) {
-    return static_cast<float>(std::sqrt(sceneArea(scene) / budget));
-}
-
 Unwrap unwrap(const Scene& scene, const RayScene& rays, const UnwrapParams& params) {
     Unwrap result;
     result.texelSize =
@@ -162,7 +153,8 @@ Unwrap restoreUnwrap(const Scene& scene, const RayScene& rays, const std::vector
     result.triangleCharts = triangleCharts;
     result.atlasWidth = atlas.width;
     result.atlasHeight = atlas.height;
-    result.texelSize = charts.empty() ? 0 : 1 / glm::length(charts.front().uAxis);
+    for (const Chart& chart : charts)
+        result.texelSize = std::max(result.texelSize, chart.texelSize());
     findTexels(scene, rays, result);
     return result;
 }

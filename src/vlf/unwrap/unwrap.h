@@ -26,7 +26,7 @@ struct Unwrap {
     std::vector<Chart> charts;
     std::vector<TriangleCharts> triangleCharts;  ///< one per triangle
     std::uint32_t atlasWidth = 0, atlasHeight = 0;
-    float texelSize = 0;  ///< metres
+    float texelSize = 0;  ///< metres, of flat surfaces; finer where they bend
 
     /// The texels a surface covers, and for each its atlas index, chart and surface points.
     std::vector<std::uint32_t> texels;
@@ -51,13 +51,10 @@ struct Unwrap {
 };
 
 struct UnwrapParams {
-    float texelSize = 0;         ///< metres; 0: from the budget
+    float texelSize = 0;         ///< metres, of flat surfaces; 0: from the budget
     double texelBudget = 75000;  ///< about how many texels to spend on the scene
     std::uint64_t seed = 0;
 };
-
-/// Texel size (metres) that spends about `budget` texels on the scene's fronts.
-float texelSizeForBudget(const Scene& scene, double budget);
 
 /// Throws InputError if the scene would need more than 2^28 texels.
 Unwrap unwrap(const Scene& scene, const RayScene& rays, const UnwrapParams& params);

@@ -1,4 +1,7 @@
-#include "vlf/propagate/mirror_gather.h"
+#include "vlf/propagate/ray_gather.h"
+
+#include "vlf/math/frame.h"
+#include "vlf/math/sampling.h"
 
 #include <algorithm>
 
@@ -19,13 +22,13 @@ std::uint32_t texelAt(const Unwrap& unwrap, std::uint32_t chartIndex, const Vec3
 }  // namespace
 
 /// A mirror whose reflection needs no look at the surface: flat and without texture.
-bool MirrorGatherer::isPlainMirror(std::uint32_t chart) const {
+bool RayGatherer::isPlainMirror(std::uint32_t chart) const {
     return unwrap_.charts[chart].planar &&
            scene_.materials[unwrap_.charts[chart].material].mirrorTexture < 0;
 }
 
-void MirrorGatherer::start(const ParallelSubfield& subfield,
-                           const std::vector<MirrorSight>& sights) {
+void RayGatherer::startAtMirrors(const ParallelSubfield& subfield,
+                                 const std::vector<MirrorSight>& sights) {
     paths_.clear();
     queue_.clear();
     const float perCell = 1 / glm::dot(subfield.xAxis, subfield.xAxis);
@@ -41,35 +44,58 @@ void MirrorGatherer::start(const ParallelSubfield& subfield,
             const Vec3& n = unwrap_.charts[chart].normal;
             queue_.push_back({cell + s.mirrorDepth * subfield.direction + rays_.epsilon() * n,
                               glm::reflect(direction, n)});
-            paths_.push_back(
-                {s.receiver, 1, true, scene_.materials[unwrap_.charts[chart].material].mirror});
+            paths_.push_back({s.receiver, 1, true, false,
+                              scene_.materials[unwrap_.charts[chart].material].mirror});
         } else {
             // From the receiver on, to find where exactly the mirror is met.
             queue_.push_back(
                 {cell + s.receiverDepth * subfield.direction + rays_.epsilon() * direction,
                  direction});
-            paths_.push_back({s.receiver, 0, true, Vec3(1)});
+            paths_.push_back({s.receiver, 0, true, false, Vec3(1)});
         }
     }
 }
 
-void MirrorGatherer::advance(const TexelBuffer& radiance, TexelBuffer& gathered) {
+/// A ray from a random point of the texel, cosine-distributed about the shading normal. One below
+/// the surface is drawn again.
+Ray RayGatherer::texelRay(std::size_t texel, const Vec2& sample, RandomStream& random) const {
+    const auto points = unwrap_.points.of(texel);
+    const SurfacePoint& p = points[random.nextBits() % points.size()];
+    const bool front = unwrap_.triangleCharts[p.triangle].front == unwrap_.texelChart[texel];
+    const float side = front ? 1.0f : -1.0f;
+    const Vec3 surface = side * geometricNormal(scene_, p.triangle);
+    Vec3 normal = shadingNormalAt(scene_, p.triangle, p.barycentric);
+    if (glm::dot(normal, surface) < 0) normal = -normal;
+    const Frame frame = frameFromNormal(normal);
+    Vec3 direction = frame.toWorld(sampleCosineHemisphere(sample));
+    while (glm::dot(direction, surface) <= 0)
+        direction = frame.toWorld(sampleCosineHemisphere(random.next2()));
+    return {positionAt(scene_, p.triangle, p.barycentric) + rays_.epsilon() * surface, direction};
+}
+
+void RayGatherer::advance(const TexelBuffer& radiance, TexelBuffer& gathered) {
     hits_.resize(queue_.size());
     rays_.closest(queue_, hits_);
     nextPaths_.clear();
     nextQueue_.clear();
     for (std::size_t i = 0; i < hits_.size(); ++i) {
         const Hit& hit = hits_[i];
-        if (!hit) continue;
+        const Path& path = paths_[i];
+        const bool countsItself = path.fromTexel && path.reflections == 0;
+        if (!hit) {
+            if (countsItself) gathered.add(path.receiver, Vec3(0), 1);
+            continue;
+        }
         const bool front = glm::dot(areaVector(scene_, hit.triangle), queue_[i].direction) < 0;
         const TriangleCharts& charts = unwrap_.triangleCharts[hit.triangle];
         const std::uint32_t chart = front ? charts.front : charts.back;
         if (chart == kNoChart) continue;
-        const Path& path = paths_[i];
         const Vec3 position = queue_[i].origin + hit.t * queue_[i].direction;
-        if (path.reflections > 0)
-            gathered.addRgb(path.receiver, path.throughput * radianceSeen(path, hit, chart, front,
-                                                                          position, radiance));
+        if (countsItself || path.reflections > 0)
+            gathered.add(
+                path.receiver,
+                path.throughput * radianceSeen(path, hit, chart, front, position, radiance),
+                countsItself ? 1 : 0);
         if (path.reflections < kMaxReflections && scene_.material(hit.triangle).isMirror())
             reflect(path, queue_[i].direction, hit, chart, front, position);
     }
@@ -77,8 +103,8 @@ void MirrorGatherer::advance(const TexelBuffer& radiance, TexelBuffer& gathered)
     std::swap(queue_, nextQueue_);
 }
 
-Vec3 MirrorGatherer::radianceSeen(const Path& path, const Hit& hit, std::uint32_t chart, bool front,
-                                  const Vec3& position, const TexelBuffer& radiance) const {
+Vec3 RayGatherer::radianceSeen(const Path& path, const Hit& hit, std::uint32_t chart, bool front,
+                               const Vec3& position, const TexelBuffer& radiance) const {
     const Vec3 reflected = radiance.rgb(texelAt(unwrap_, chart, position));
     const Material& material = scene_.material(hit.triangle);
     if (!material.isEmitter() || !(front || material.emitsBothSides) ||
@@ -88,8 +114,8 @@ Vec3 MirrorGatherer::radianceSeen(const Path& path, const Hit& hit, std::uint32_
            emittedRadiance(scene_, material, uvAt(scene_, hit.triangle, hit.barycentric));
 }
 
-void MirrorGatherer::reflect(Path path, const Vec3& direction, const Hit& hit, std::uint32_t chart,
-                             bool front, const Vec3& position) {
+void RayGatherer::reflect(Path path, const Vec3& direction, const Hit& hit, std::uint32_t chart,
+                          bool front, const Vec3& position) {
     const bool planar = sources_.planarMirror[chart] != 0;
     path.throughput *= mirrorReflectance(scene_, scene_.material(hit.triangle),
                                          uvAt(scene_, hit.triangle, hit.barycentric));
@@ -104,11 +130,23 @@ void MirrorGatherer::reflect(Path path, const Vec3& direction, const Hit& hit, s
     nextPaths_.push_back(path);
 }
 
-void MirrorGatherer::gather(const ParallelSubfield& subfield,
-                            const std::vector<MirrorSight>& sights, const TexelBuffer& radiance,
-                            TexelBuffer& gathered) {
+void RayGatherer::gatherFromMirrors(const ParallelSubfield& subfield,
+                                    const std::vector<MirrorSight>& sights,
+                                    const TexelBuffer& radiance, TexelBuffer& gathered) {
     if (sights.empty()) return;
-    start(subfield, sights);
+    startAtMirrors(subfield, sights);
+    while (!queue_.empty()) advance(radiance, gathered);
+}
+
+void RayGatherer::gatherFromTexel(std::size_t i, int count, RandomStream& random,
+                                  const TexelBuffer& radiance, TexelBuffer& gathered) {
+    paths_.clear();
+    queue_.clear();
+    const Vec2 shift = random.next2();
+    for (int k = 0; k < count; ++k) {
+        queue_.push_back(texelRay(i, r2Point(static_cast<std::uint32_t>(k), shift), random));
+        paths_.push_back({unwrap_.texels[i], 0, true, true, Vec3(1)});
+    }
     while (!queue_.empty()) advance(radiance, gathered);
 }
 

@@ -1,0 +1,62 @@
+#pragma once
+// Light gathered by single rays: by those of a bundle that end on a mirror and go on by reflection
+// to a diffuse surface, and by texels of their own that the bundles hit too rarely.
+
+#include "vlf/math/random.h"
+#include "vlf/propagate/bundle_sweep.h"
+#include "vlf/propagate/light_sources.h"
+#include "vlf/trace/ray_scene.h"
+#include "vlf/unwrap/unwrap.h"
+
+#include <vector>
+
+namespace vlf {
+
+/// Longest chain of mirrors followed; what is left of the light then is dropped.
+inline constexpr int kMaxReflections = 16;
+
+/// Follows rays over mirrors and adds the radiance found to their receivers.
+class RayGatherer {
+  public:
+    RayGatherer(const Scene& scene, const RayScene& rays, const Unwrap& unwrap,
+                const LightSources& sources)
+        : scene_(scene), rays_(rays), unwrap_(unwrap), sources_(sources) {}
+
+    /// What the mirror sights of one subfield come to see, to the samples that the sweep has
+    /// counted. `radiance`: diffuse radiance leaving each texel. Emission is added where the direct
+    /// light does not have it already (LightSources::covers).
+    void gatherFromMirrors(const ParallelSubfield& subfield, const std::vector<MirrorSight>& sights,
+                           const TexelBuffer& radiance, TexelBuffer& gathered);
+
+    /// `count` cosine-distributed rays from entry i of unwrap.texels, each one more sample.
+    void gatherFromTexel(std::size_t i, int count, RandomStream& random,
+                         const TexelBuffer& radiance, TexelBuffer& gathered);
+
+  private:
+    struct Path {
+        std::uint32_t receiver;
+        int reflections;
+        bool planarOnly;  // all of these so far
+        bool fromTexel;   // not yet among the receiver's samples when it starts
+        Vec3 throughput;
+    };
+
+    void startAtMirrors(const ParallelSubfield& subfield, const std::vector<MirrorSight>& sights);
+    void advance(const TexelBuffer& radiance, TexelBuffer& gathered);
+    Vec3 radianceSeen(const Path& path, const Hit& hit, std::uint32_t chart, bool front,
+                      const Vec3& position, const TexelBuffer& radiance) const;
+    void reflect(Path path, const Vec3& direction, const Hit& hit, std::uint32_t chart, bool front,
+                 const Vec3& position);
+    Ray texelRay(std::size_t texel, const Vec2& sample, RandomStream& random) const;
+    bool isPlainMirror(std::uint32_t chart) const;
+
+    const Scene& scene_;
+    const RayScene& rays_;
+    const Unwrap& unwrap_;
+    const LightSources& sources_;
+    std::vector<Path> paths_, nextPaths_;
+    std::vector<Ray> queue_, nextQueue_;
+    std::vector<Hit> hits_;
+};
+
+}  // namespace vlf
