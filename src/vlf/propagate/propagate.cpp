@@ -36,6 +36,7 @@ TexelBuffer emit(const BakeState& state) {
     const auto& texels = state.unwrap.texels;
     for (std::size_t i = 0; i < texels.size(); ++i)
         radiance.set(texels[i], state.reflectance[i] * state.irradiance[i] / kPi, 1);
+    for (const std::uint32_t texel : state.unwrap.buried) radiance.set(texel, Vec3(0), 1);
     for (const auto& [texel, proxy] : state.unwrap.proxies)
         radiance.set(texel, radiance.rgb(proxy), 1);
     radiance.set(radiance.texelCount(), Vec3(0), 1);  // outside: black

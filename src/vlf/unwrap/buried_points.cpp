@@ -84,15 +84,20 @@ void dropBuriedPoints(const Scene& scene, const RayScene& rays, Unwrap& unwrap) 
         divided[i] = test.isDivided(i, own);
         if (divided[i]) std::fill(own.begin(), own.end(), std::uint8_t{0});
     });
+    unwrap.divided.clear();
+    unwrap.buried.clear();
     for (std::size_t i = 0; i < divided.size(); ++i)
-        if (divided[i]) unwrap.divided.push_back(unwrap.texels[i]);
+        if (divided[i]) unwrap.divided.push_back({unwrap.texels[i], unwrap.texelChart[i]});
     TexelPoints kept;
     kept.first.push_back(0);
     std::size_t texels = 0;
     for (std::size_t i = 0; i < unwrap.texels.size(); ++i) {
         for (std::uint32_t k = unwrap.points.first[i]; k < unwrap.points.first[i + 1]; ++k)
             if (keep[k]) kept.points.push_back(unwrap.points.points[k]);
-        if (kept.points.size() == kept.first.back()) continue;
+        if (kept.points.size() == kept.first.back()) {
+            if (!divided[i]) unwrap.buried.push_back(unwrap.texels[i]);
+            continue;
+        }
         kept.first.push_back(static_cast<std::uint32_t>(kept.points.size()));
         unwrap.texels[texels] = unwrap.texels[i];
         unwrap.texelChart[texels] = unwrap.texelChart[i];

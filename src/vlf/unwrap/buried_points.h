@@ -6,8 +6,8 @@
 namespace vlf {
 
 /// Removes the points from whose side one sees the closed side of a surface straight above, and
-/// the texels that have no point left. Texels that a thin wall divides go too, into
-/// unwrap.divided: they would carry light from one side to the other.
+/// the texels that have no point left, into unwrap.buried. Texels that a thin wall divides go too,
+/// into unwrap.divided: they would carry light from one side to the other.
 void dropBuriedPoints(const Scene& scene, const RayScene& rays, Unwrap& unwrap);
 
 }  // namespace vlf

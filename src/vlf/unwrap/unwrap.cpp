@@ -19,6 +19,10 @@ namespace {
 
 constexpr double kMaxTexels = 1 << 28;
 
+// Charts with more than this share of texels that a wall divides get finer ones, a few times over.
+constexpr double kDividedShare = 0.1;
+constexpr int kRefinements = 2;
+
 std::vector<std::uint32_t> groupOfTriangles(const std::vector<ChartGroup>& groups,
                                             std::size_t triangles) {
     std::vector<std::uint32_t> groupOf(triangles);
@@ -37,12 +41,12 @@ void checkSize(const Scene& scene, float texelSize) {
 
 /// Charts of the groups' open sides.
 void layOutCharts(const Scene& scene, const std::vector<ChartGroup>& groups,
-                  const std::vector<OpenSides>& sides, Unwrap& result) {
+                  const std::vector<OpenSides>& sides, const std::vector<float>& texelSizes,
+                  Unwrap& result) {
     std::vector<Chart> layouts(groups.size());
-    parallelFor(groups.size(), 16, [&](std::size_t g) {
-        layouts[g] = layOutChart(scene, groups[g],
-                                 texelSizeOf(scene, groups[g].triangles, result.texelSize));
-    });
+    parallelFor(groups.size(), 16,
+                [&](std::size_t g) { layouts[g] = layOutChart(scene, groups[g], texelSizes[g]); });
+    result.charts.clear();
     result.triangleCharts.resize(scene.triangles.size());
     for (std::uint32_t g = 0; g < groups.size(); ++g) {
         TriangleCharts charts;
@@ -84,6 +88,9 @@ std::vector<std::vector<std::uint32_t>> trianglesOfCharts(const Unwrap& unwrap) 
 
 /// Lists the covered texels of all charts with their points.
 void coverTexels(const Scene& scene, Unwrap& result) {
+    result.texels.clear();
+    result.texelChart.clear();
+    result.points = {};
     const auto triangles = trianglesOfCharts(result);
     std::vector<TexelPoints> points(result.charts.size());
     parallelFor(points.size(), 4, [&](std::size_t c) {
@@ -102,19 +109,20 @@ void coverTexels(const Scene& scene, Unwrap& result) {
 
 /// Pairs every uncovered texel of a chart that has a covered neighbour with it.
 void findProxies(Unwrap& result) {
-    std::vector<std::uint8_t> covered(result.atlasSize(), 0);
-    for (const std::uint32_t t : result.texels) covered[t] = 1;
-    std::vector<std::uint8_t> divided(result.atlasSize(), 0);
-    for (const std::uint32_t t : result.divided) divided[t] = 1;
+    enum : std::uint8_t { empty, covered, divided };
+    std::vector<std::uint8_t> state(result.atlasSize(), empty);
+    for (const std::uint32_t t : result.texels) state[t] = covered;
+    for (const DividedTexel& t : result.divided) state[t.texel] = divided;
+    result.proxies.clear();
     for (const Chart& c : result.charts)
         for (std::uint32_t y = c.y; y < c.y + c.height; ++y)
             for (std::uint32_t x = c.x; x < c.x + c.width; ++x) {
                 const std::uint32_t texel = y * result.atlasWidth + x;
-                if (covered[texel] || divided[texel]) continue;
+                if (state[texel] != empty) continue;
                 // The gutter keeps neighbours of an edge texel within the atlas.
                 const std::uint32_t pitch = result.atlasWidth;
                 for (const std::uint32_t n : {texel - 1, texel + 1, texel - pitch, texel + pitch})
-                    if (covered[n]) {
+                    if (state[n] == covered) {
                         result.proxies.emplace_back(texel, n);
                         break;
                     }
@@ -127,6 +135,34 @@ void findTexels(const Scene& scene, const RayScene& rays, Unwrap& result) {
     findProxies(result);
 }
 
+std::vector<float> texelSizes(const Scene& scene, const std::vector<ChartGroup>& groups,
+                              float flatSize) {
+    std::vector<float> sizes(groups.size());
+    parallelFor(groups.size(), 16, [&](std::size_t g) {
+        sizes[g] = texelSizeOf(scene, groups[g].triangles, flatSize);
+    });
+    return sizes;
+}
+
+/// Halves the texels of groups of which walls divide many. Whether there are any.
+bool refineDivided(const Unwrap& u, const std::vector<ChartGroup>& groups,
+                   std::vector<float>& texelSizes) {
+    std::vector<double> whole(u.charts.size(), 0), divided(u.charts.size(), 0);
+    for (const std::uint32_t c : u.texelChart) ++whole[c];
+    for (const DividedTexel& t : u.divided) ++divided[t.chart];
+    const auto tooMany = [&](std::uint32_t c) {
+        return c != kNoChart && divided[c] > kDividedShare * (whole[c] + divided[c]);
+    };
+    bool any = false;
+    for (std::size_t g = 0; g < groups.size(); ++g) {
+        const TriangleCharts& charts = u.triangleCharts[groups[g].triangles[0]];
+        if (!tooMany(charts.front) && !tooMany(charts.back)) continue;
+        texelSizes[g] *= 0.5f;
+        any = true;
+    }
+    return any;
+}
+
 }  // namespace
 
 Unwrap unwrap(const Scene& scene, const RayScene& rays, const UnwrapParams& params) {
@@ -137,11 +173,15 @@ Unwrap unwrap(const Scene& scene, const RayScene& rays, const UnwrapParams& para
     const std::vector<ChartGroup> groups = groupTriangles(scene, result.texelSize);
     const std::vector<std::uint32_t> groupOf = groupOfTriangles(groups, scene.triangles.size());
     const std::vector<OpenSides> sides = findOpenSides(scene, rays, groups, groupOf, params.seed);
-    layOutCharts(scene, groups, sides, result);
-    const AtlasSize size = packCharts(result.charts);
-    result.atlasWidth = size.width;
-    result.atlasHeight = size.height;
-    findTexels(scene, rays, result);
+    std::vector<float> sizes = texelSizes(scene, groups, result.texelSize);
+    for (int refinements = 0;; ++refinements) {
+        layOutCharts(scene, groups, sides, sizes, result);
+        const AtlasSize size = packCharts(result.charts);
+        result.atlasWidth = size.width;
+        result.atlasHeight = size.height;
+        findTexels(scene, rays, result);
+        if (refinements == kRefinements || !refineDivided(result, groups, sizes)) break;
+    }
     result.seams = findSeams(scene, rays, result);
     return result;
 }

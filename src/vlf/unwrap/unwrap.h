@@ -22,6 +22,12 @@ struct SeamLink {
     Vec2 coordinates;
 };
 
+/// A texel that a wall stands across.
+struct DividedTexel {
+    std::uint32_t texel;  ///< atlas index
+    std::uint32_t chart;
+};
+
 struct Unwrap {
     std::vector<Chart> charts;
     std::vector<TriangleCharts> triangleCharts;  ///< one per triangle
@@ -34,12 +40,15 @@ struct Unwrap {
     TexelPoints points;
     std::vector<float> pointArea;  ///< per chart: surface area that a point stands for, m²
 
-    /// Texels that a wall stands across (atlas indices): they take no part in transport, being
-    /// neither samples nor receivers.
-    std::vector<std::uint32_t> divided;
+    /// Atlas indices of texels within solids, or behind panels: black, and no receivers.
+    std::vector<std::uint32_t> buried;
+
+    /// They take no part in transport, being neither samples nor receivers.
+    std::vector<DividedTexel> divided;
 
     /// Texels within a chart that the points miss but a ray may still hit (slivers of the
-    /// surface), and the covered neighbour that stands for them. Atlas indices.
+    /// surface, open parts of buried texels), and the covered neighbour that stands for them.
+    /// Atlas indices.
     std::vector<std::pair<std::uint32_t, std::uint32_t>> proxies;
 
     std::vector<SeamLink> seams;
