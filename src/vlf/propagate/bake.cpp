@@ -106,18 +106,22 @@ BakeParams presetParams(const std::string& name) {
     BakeParams p;
     p.preset = name;
     if (name == "draft") {
-        p.directions = 129;
-        p.cells = 256;
+        p.directions = 513;
+        p.cells = 128;
         p.texelBudget = 20000;
         p.directSamples = 2;
         p.tolerance = 5e-3;
+        p.settlingSweeps = 2;
         p.radianceDirections = 513;
         p.radianceCells = 128;
     } else if (name == "high") {
         p.directions = 8193;
+        p.cells = 512;
         p.texelBudget = 150000;
         p.directSamples = 32;
-        p.tolerance = 2e-4;
+        p.tolerance = 1e-3;
+        p.coarseDirections = 513;
+        p.settlingSweeps = 8;
         p.radianceCells = 512;
     } else if (name != "standard") {
         throw InputError("unknown preset '" + name + "': choose draft, standard or high");
@@ -135,6 +139,7 @@ BakeState makeState(const Scene& scene, const BakeParams& params, Progress& prog
     state.report.texels = state.unwrap.texels.size();
     state.faces = makeBundleFaces(scene, state.unwrap, state.frame);
     state.sources = findLightSources(scene, state.unwrap);
+    state.bentTexels = findBentTexels(scene, state.unwrap);
     findReflectances(state);
     state.directIrradiance = timed(state.report, progress, "direct light", [&] {
         return directIrradiance(scene, state.rays, state.unwrap, state.sources,

@@ -4,6 +4,7 @@
 
 #include "vlf/base/progress.h"
 #include "vlf/field/light_field.h"
+#include "vlf/propagate/bent_texels.h"
 #include "vlf/propagate/bundle_faces.h"
 #include "vlf/propagate/bundle_sweep.h"
 #include "vlf/propagate/light_sources.h"
@@ -19,15 +20,16 @@ namespace vlf {
 
 struct BakeParams {
     std::string preset = "standard";
-    int directions = 513;  ///< lines l of the last sweep: 2·4ⁿ + 1
-    int cells = 512;       ///< N: rays along one side of a bundle
-    float texelSize = 0;   ///< metres; 0: from texelBudget
+    int directions = 2049;  ///< lines l of the last sweep: 2·4ⁿ + 1
+    int cells = 256;        ///< N: rays along one side of a bundle
+    float texelSize = 0;    ///< metres; 0: from texelBudget
     double texelBudget = 75000;
     int directSamples = 4;       ///< shadow rays per texel outside penumbrae
     int coarseDirections = 129;  ///< of the sweeps before the last
     int coarseCells = 128;
     int maxBounces = 0;             ///< 0: until converged
-    double tolerance = 1e-3;        ///< of the light still missing, relative
+    double tolerance = 2e-3;        ///< of the light still missing, relative
+    int settlingSweeps = 6;         ///< coarse ones after that, whose mean goes into the last
     int radianceDirections = 2049;  ///< of the radiance field of mirror charts; 0: none
     int radianceCells = 256;
     int tileSize = 8;  ///< m, a power of two
@@ -65,6 +67,7 @@ struct BakeState {
     FieldFrame frame;
     BundleFaces faces;
     LightSources sources;
+    std::vector<BentTexel> bentTexels;
     std::vector<Vec3> reflectance;       ///< diffuse
     std::vector<Vec3> absorptance;       ///< 1 - diffuse - mirror reflectance
     std::vector<Vec3> directIrradiance;  ///< W·m⁻²

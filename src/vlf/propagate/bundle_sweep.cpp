@@ -57,6 +57,7 @@ class Sweep {
                 rowEnd_ = std::max<std::size_t>(rowEnd_, b_.spans[s].end);
                 insertSpan(b_.spans[s], row);
             }
+            rowBegin_ &= ~(hn::Lanes(FloatTag()) - 1);
             exchangeRow(row);
             clearRow();
         }
@@ -197,26 +198,29 @@ class Sweep {
         const IntTag di;
         const UintTag du;
         const ProjectedFace& f = b_.faces[span.face];
-        const int dx = span.begin - f.xReference, dy = row - f.yReference;
+        const auto lanes = static_cast<int>(hn::Lanes(d));
+        const int first = span.begin & -lanes;  // aligned: partly overlapping stores would stall
+        const int dx = first - f.xReference, dy = row - f.yReference;
         const Floats iota = hn::Iota(d, 0.0f);
         const auto start = [&](const Plane& p) {
             return hn::MulAdd(iota, hn::Set(d, p.perX), hn::Set(d, p.at(dx, dy)));
         };
         Floats depth = start(f.depth), u = start(f.u), v = start(f.v);
-        const auto lanes = static_cast<int>(hn::Lanes(d));
         const Floats depthStep = hn::Set(d, f.depth.perX * lanes);
         const Floats uStep = hn::Set(d, f.u.perX * lanes), vStep = hn::Set(d, f.v.perX * lanes);
         const Floats zero = hn::Zero(d), uMax = hn::Set(d, f.uMax), vMax = hn::Set(d, f.vMax);
         const auto pitch = hn::Set(di, static_cast<std::int32_t>(faces_.atlasWidth));
         const auto origin = hn::Set(di, static_cast<std::int32_t>(f.origin));
         const Uints flags = hn::Set(du, f.flags);
-        for (int x = span.begin; x < span.end; x += lanes) {
+        auto live = hn::Not(hn::FirstN(d, static_cast<std::size_t>(span.begin - first)));
+        for (int x = first; x < span.end; x += lanes) {
             const auto column = hn::ConvertTo(di, hn::Min(hn::Max(u, zero), uMax));
             const auto line = hn::ConvertTo(di, hn::Min(hn::Max(v, zero), vMax));
             const auto texel = hn::Add(hn::Add(origin, column), hn::Mul(line, pitch));
-            const auto live = hn::FirstN(d, static_cast<std::size_t>(span.end - x));
+            live = hn::And(live, hn::FirstN(d, static_cast<std::size_t>(span.end - x)));
             insert(static_cast<std::size_t>(x), hn::IfThenElse(live, depth, hn::Set(d, kFar)),
                    hn::Or(hn::BitCast(du, texel), flags));
+            live = hn::FirstN(d, static_cast<std::size_t>(lanes));
             depth = hn::Add(depth, depthStep);
             u = hn::Add(u, uStep);
             v = hn::Add(v, vStep);

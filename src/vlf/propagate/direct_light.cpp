@@ -14,18 +14,22 @@ namespace vlf {
 namespace {
 
 constexpr int kMaxAnalyticTriangles = 8;
-constexpr int kFormFactorPoints = 4;
+constexpr float kFar = 4;  // radii of a texel: light varies little over it
 constexpr std::array<std::size_t, kTexelGrid> kLatinSquare{1, 3, 0, 2};  // column taken in each row
 constexpr float kMinSamples = 3;
 constexpr float kLittle = 0.01f;   // share of the likely effect of all lights
 constexpr float kGrazing = 1e-5f;  // cosine: a point in a light's own plane gets nothing from it
 constexpr std::size_t kTexelsPerBlock = 64;
 
-// Second pass over texels in or beside a penumbra or close to a light: from kRefinement times the
-// samples of the first, the more the larger its standard error; and the standard error (relative
-// to the texel's light and the room's) that calls for it.
-constexpr int kRefinement = 6, kMaxRefinement = 48;
-constexpr float kRefineAbove = 0.004f, kRefineTo = 0.025f;
+// Later passes go over texels in or beside a penumbra or close to a light: towards a standard error
+// of kTarget (relative to the texel's light and the room's; less where it is brighter than the
+// mean, so that no texel has more than its share of the whole error), by at least kRefinement times
+// the samples of the first pass and no more than the pass allows.
+constexpr float kTarget = 0.025f, kRefineAbove = 0.004f;
+constexpr int kRefinement = 6;
+constexpr std::array<int, 2> kMaxRefinement{48, 1024};
+constexpr float kWorthwhile = 0.25f;  // fewer more samples than this share do not matter
+constexpr float kBright = 8;          // times the mean
 constexpr float kRoomShare = 0.3f;
 constexpr float kShadowEdge = 0.25f;  // relative step between neighbours that counts as an edge
 
@@ -64,14 +68,25 @@ struct Receiver {
     std::uint64_t key = 0;
 };
 
-/// An estimate of irradiance, W·m⁻², and the variance of its luminance.
+/// An estimate of irradiance, W·m⁻².
 struct DirectEstimate {
     Vec3 value{0};
-    float variance = 0;
+    float variance = 0;    ///< of the luminance
+    float unoccluded = 0;  ///< about the luminance if nothing stood in the way
+    int samples = 0;
 
     void add(const DirectEstimate& other, float scale) {
         value += scale * other.value;
         variance += scale * scale * other.variance;
+    }
+
+    /// Takes an independent estimate of the same texel in.
+    void merge(const DirectEstimate& other) {
+        const auto all = static_cast<float>(samples + other.samples);
+        const float own = static_cast<float>(samples) / all;
+        value = own * value + (1 - own) * other.value;
+        variance = own * own * variance + (1 - own) * (1 - own) * other.variance;
+        samples += other.samples;
     }
 };
 
@@ -90,7 +105,7 @@ class DirectGatherer {
         float sum = 0;
         for (const LightImage& image : sources_.images)
             sum += estimates_.emplace_back(estimate(receiver, image));
-        DirectEstimate total;
+        DirectEstimate total{.unoccluded = sum, .samples = samples};
         if (sum <= 0) return total;
         RandomStream random(params_.seed + pass, receiver.key);
         for (std::size_t i = 0; i < estimates_.size(); ++i) {
@@ -256,14 +271,16 @@ class DirectGatherer {
         return cosReceiver * cosLight / (squared * squared * lobe(p));
     }
 
-    /// Mean form factor over a few of the texel's points.
+    /// Mean form factor over the texel's points: over four of a full one that is far from the
+    /// light.
     float formFactor(const Receiver& r, const Light& light, const LightImage& image) const {
-        const std::size_t count = std::min<std::size_t>(kFormFactorPoints, r.points.size());
+        const float distance = glm::distance(r.centre, image.imageFromWorld.point(light.centre));
+        const bool few = r.points.size() == kLatinSquare.size() * kLatinSquare.size() &&
+                         distance - light.radius > kFar * r.radius;
+        const std::size_t count = few ? kLatinSquare.size() : r.points.size();
         float sum = 0;
         for (std::size_t i = 0; i < count; ++i) {
-            const std::size_t k = r.points.size() == kLatinSquare.size() * kLatinSquare.size()
-                                      ? kLatinSquare.size() * i + kLatinSquare[i]
-                                      : (2 * i + 1) * r.points.size() / (2 * count);
+            const std::size_t k = few ? kLatinSquare.size() * i + kLatinSquare[i] : i;
             const Point p = surfacePoint(r, k);
             for (const std::uint32_t t : light.triangles) {
                 std::array<Vec3, 3> corner;
@@ -272,7 +289,8 @@ class DirectGatherer {
                 const Vec3 n = image.imageFromWorld.vector(light.normal);
                 const Vec3 fromLight = p.position - corner[0];
                 if (glm::dot(n, fromLight) <= kGrazing * glm::length(fromLight)) continue;
-                sum += triangleFormFactor(p.position, p.shading, corner[0], corner[1], corner[2]) /
+                sum += triangleFormFactor(p.position, p.shading, p.geometric, corner[0], corner[1],
+                                          corner[2]) /
                        lobe(p);
             }
         }
@@ -337,7 +355,7 @@ void forEachTexel(std::size_t texels, const DirectGatherer& prototype, ProgressC
     });
 }
 
-/// Which texels lie in or beside a penumbra, or at a shadow's edge.
+/// Which texels lie in or beside a penumbra, at a shadow's edge or close to a light.
 class PenumbraFinder {
   public:
     PenumbraFinder(const Unwrap& unwrap, const std::vector<DirectEstimate>& estimates)
@@ -347,39 +365,64 @@ class PenumbraFinder {
             entryOf_[unwrap.texels[i]] = static_cast<std::uint32_t>(i);
             sum += luminance(estimates[i].value);
         }
-        roomLight_ = kRoomShare * static_cast<float>(sum / static_cast<double>(estimates.size()));
+        mean_ = static_cast<float>(sum / static_cast<double>(estimates.size()));
     }
 
-    /// How many times the first pass's samples the texel needs; 0: no more.
-    int operator()(std::size_t i) const {
+    /// How many samples the texel should have by the first refinement, which looks at its
+    /// neighbours too: edges reach into them.
+    float wantedAfterFirst(std::size_t i) const {
         const auto texel = static_cast<std::int64_t>(unwrap_.texels[i]);
         const auto pitch = static_cast<std::int64_t>(unwrap_.atlasWidth);
         const float own = luminance(estimates_[i].value);
-        float error = 0;
         bool edge = false;
+        float wanted = this->wanted(i, own);
         // The gutter keeps all neighbours within the atlas.
         for (std::int64_t dy = -1; dy <= 1; ++dy)
             for (std::int64_t dx = -1; dx <= 1; ++dx) {
                 const std::uint32_t n = entryOf_[texel + dy * pitch + dx];
                 if (n == kNone) continue;
-                const float other = luminance(estimates_[n].value);
-                const float light = std::max(own, other) + roomLight_;
-                error = std::max(error, std::sqrt(estimates_[n].variance) / light);
-                edge = edge || std::abs(other - own) > kShadowEdge * light;
+                const float brighter = std::max(own, luminance(estimates_[n].value));
+                wanted = std::max(wanted, this->wanted(n, brighter));
+                edge = edge || std::abs(luminance(estimates_[n].value) - own) >
+                                   kShadowEdge * (brighter + kRoomShare * mean_);
             }
-        if (error < kRefineAbove && !edge) return 0;
-        const float wanted = error * error / (kRefineTo * kRefineTo);
-        return static_cast<int>(std::clamp<float>(wanted, kRefinement, kMaxRefinement));
+        return edge ? std::max(wanted, 1.0f) : wanted;
     }
+
+    /// The same by what is known of the texel itself.
+    float wanted(std::size_t i) const { return wanted(i, luminance(estimates_[i].value)); }
 
   private:
     static constexpr std::uint32_t kNone = 0xffffffffu;
 
+    /// Samples for the error of entry i beside light of the given luminance.
+    float wanted(std::size_t i, float luminance) const {
+        const DirectEstimate& e = estimates_[i];
+        const float light = luminance + kRoomShare * mean_;
+        // What one more sample might change where all so far agree.
+        const float unknown = e.unoccluded / static_cast<float>(e.samples + 1);
+        const float risk = unknown > kBright * light ? unknown : 0;
+        const float error = std::max(std::sqrt(e.variance), risk) / light;
+        if (error < kRefineAbove) return 0;
+        const float target = kTarget / std::sqrt(std::max(1.0f, light / (kBright * mean_)));
+        return static_cast<float>(e.samples) * error * error / (target * target);
+    }
+
     const Unwrap& unwrap_;
     const std::vector<DirectEstimate>& estimates_;
     std::vector<std::uint32_t> entryOf_;  // per atlas texel
-    float roomLight_ = 0;
+    float mean_ = 0;                      // luminance over all texels
 };
+
+/// Samples to add to a texel that should have `wanted`, `most` being what the pass allows.
+int samplesToAdd(const DirectEstimate& estimate, float wanted, int first, int most) {
+    if (wanted <= 0) return 0;
+    const float missing = wanted - static_cast<float>(estimate.samples);
+    if (estimate.samples > first && missing < kWorthwhile * static_cast<float>(estimate.samples))
+        return 0;
+    const int least = estimate.samples == first ? kRefinement * first : 1;
+    return static_cast<int>(std::clamp<float>(missing, least, most));
+}
 
 }  // namespace
 
@@ -390,20 +433,23 @@ std::vector<Vec3> directIrradiance(const Scene& scene, const RayScene& rays, con
     std::vector<Vec3> irradiance(texels, Vec3(0));
     if (sources.images.empty()) return irradiance;
     const DirectGatherer prototype(scene, rays, unwrap, sources, params);
-    ProgressCounter done(progress, 2 * ((texels + kTexelsPerBlock - 1) / kTexelsPerBlock));
-    std::vector<DirectEstimate> first(texels);
+    const std::size_t blocks = (texels + kTexelsPerBlock - 1) / kTexelsPerBlock;
+    ProgressCounter done(progress, (1 + kMaxRefinement.size()) * blocks);
+    std::vector<DirectEstimate> estimates(texels);
     forEachTexel(texels, prototype, done, [&](DirectGatherer& gatherer, std::size_t i) {
-        first[i] = gatherer.irradiance(i, params.samples, 0);
+        estimates[i] = gatherer.irradiance(i, params.samples, 0);
     });
-    const PenumbraFinder needsMore(unwrap, first);
-    forEachTexel(texels, prototype, done, [&](DirectGatherer& gatherer, std::size_t i) {
-        irradiance[i] = first[i].value;
-        const int times = needsMore(i);
-        if (times == 0) return;
-        const Vec3 more = gatherer.irradiance(i, times * params.samples, 1).value;
-        irradiance[i] =
-            (first[i].value + static_cast<float>(times) * more) / static_cast<float>(1 + times);
-    });
+    for (std::size_t pass = 0; pass < kMaxRefinement.size(); ++pass) {
+        const std::vector<DirectEstimate> before = estimates;
+        const PenumbraFinder finder(unwrap, before);
+        forEachTexel(texels, prototype, done, [&](DirectGatherer& gatherer, std::size_t i) {
+            const float wanted = pass == 0 ? finder.wantedAfterFirst(i) : finder.wanted(i);
+            const int more = samplesToAdd(before[i], wanted, params.samples,
+                                          kMaxRefinement[pass] * params.samples);
+            if (more > 0) estimates[i].merge(gatherer.irradiance(i, more, pass + 1));
+        });
+    }
+    for (std::size_t i = 0; i < texels; ++i) irradiance[i] = estimates[i].value;
     return irradiance;
 }
 

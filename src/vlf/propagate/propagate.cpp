@@ -16,6 +16,7 @@
 #include "vlf/propagate/bake.h"
 #include "vlf/propagate/convergence.h"
 #include "vlf/propagate/ray_gather.h"
+#include "vlf/propagate/smooth_indirect.h"
 
 #include <algorithm>
 
@@ -30,22 +31,21 @@ constexpr std::size_t kAccumulators = 8;
 constexpr int kMinSamples = 64;
 constexpr std::size_t kTexelsPerBlock = 256;
 
-/// L = ρ E / π for every texel.
+/// L = ρ E / π for every texel. Those that have none, buried or divided, are no sample to others.
 TexelBuffer emit(const BakeState& state) {
     TexelBuffer radiance(state.unwrap.atlasSize());
     const auto& texels = state.unwrap.texels;
     for (std::size_t i = 0; i < texels.size(); ++i)
         radiance.set(texels[i], state.reflectance[i] * state.irradiance[i] / kPi, 1);
-    for (const std::uint32_t texel : state.unwrap.buried) radiance.set(texel, Vec3(0), 1);
     for (const auto& [texel, proxy] : state.unwrap.proxies)
         radiance.set(texel, radiance.rgb(proxy), 1);
     radiance.set(radiance.texelCount(), Vec3(0), 1);  // outside: black
     return radiance;
 }
 
-/// Sweeps every bundle and gathers what the texels see.
-TexelBuffer sweep(BakeState& state, const DirectionSet& directions, int cells, int rotation,
-                  const TexelBuffer& radiance, Progress& progress) {
+/// Sweeps every bundle and gathers what the texels see, in kAccumulators parts.
+std::vector<TexelBuffer> sweep(BakeState& state, const DirectionSet& directions, int cells,
+                               int rotation, const TexelBuffer& radiance, Progress& progress) {
     std::vector<TexelBuffer> gathered(kAccumulators, TexelBuffer(state.unwrap.atlasSize()));
     std::vector<std::uint64_t> exchanges(kAccumulators, 0);
     const std::uint64_t seed =
@@ -59,6 +59,7 @@ TexelBuffer sweep(BakeState& state, const DirectionSet& directions, int cells, i
         SweepScratch scratch;
         RayGatherer mirrors(state.scene, state.rays, state.unwrap, state.sources);
         std::vector<MirrorSight> sights;
+        BentSums bent(state.bentTexels);
         for (std::size_t line = a; line < lines; line += kAccumulators) {
             RandomStream random(seed, line);
             const Vec3 direction = turn * directions.direction(static_cast<std::uint32_t>(line));
@@ -69,11 +70,13 @@ TexelBuffer sweep(BakeState& state, const DirectionSet& directions, int cells, i
             exchanges[a] +=
                 sweepBundle(state.faces, subfield, radiance, gathered[a], sights, scratch);
             mirrors.gatherFromMirrors(subfield, sights, radiance, gathered[a]);
+            bent.take(direction, gathered[a]);
             done.step();
         }
+        bent.putBack(gathered[a]);
     });
     for (const std::uint64_t n : exchanges) state.report.exchanges += n;
-    return sumInOrder(gathered);
+    return gathered;
 }
 
 /// Texels that fewer rays of the bundles met, small ones and those at the ends of charts, gather
@@ -93,27 +96,56 @@ void topUp(const BakeState& state, const TexelBuffer& radiance, TexelBuffer& gat
     });
 }
 
-/// E = E_direct + π ΣL / n. Texels no ray met keep what they had.
-void deposit(BakeState& state, const TexelBuffer& gathered) {
+/// E = E_direct + E_indirect. Texels no ray met keep what they had.
+void deposit(BakeState& state, const TexelBuffer& gathered, const std::vector<Vec3>& indirect) {
     const auto& texels = state.unwrap.texels;
     for (std::size_t i = 0; i < texels.size(); ++i) {
-        const float samples = gathered.weight(texels[i]);
-        if (samples <= 0) continue;
+        if (gathered.weight(texels[i]) <= 0) continue;
         state.reached[i] = 1;
-        state.irradiance[i] = state.directIrradiance[i] + kPi * gathered.rgb(texels[i]) / samples;
+        state.irradiance[i] = state.directIrradiance[i] + indirect[i];
     }
+}
+
+/// π ΣL / n at each of the texels.
+std::vector<Vec3> indirectIrradiance(const Unwrap& unwrap, const TexelBuffer& gathered) {
+    std::vector<Vec3> indirect(unwrap.texels.size(), Vec3(0));
+    for (std::size_t i = 0; i < indirect.size(); ++i)
+        if (const float samples = gathered.weight(unwrap.texels[i]); samples > 0)
+            indirect[i] = kPi * gathered.rgb(unwrap.texels[i]) / samples;
+    return indirect;
 }
 
 }  // namespace
 
 void propagateOnce(BakeState& state, int directions, int cells, int rotation, Progress& progress) {
+    const bool last = rotation < 0;
     const TexelBuffer radiance = emit(state);
-    TexelBuffer gathered =
+    const std::vector<TexelBuffer> parts =
         sweep(state, DirectionSet(directions), cells, rotation, radiance, progress);
-    if (rotation < 0) topUp(state, radiance, gathered);
-    deposit(state, gathered);
+    TexelBuffer gathered = sumInOrder(parts);
+    if (last) topUp(state, radiance, gathered);
+    deposit(state, gathered,
+            last ? smoothIndirect(state.unwrap, parts, gathered)
+                 : indirectIrradiance(state.unwrap, gathered));
     ++state.report.sweeps;
 }
+
+namespace {
+
+/// Takes the mean over further sweeps. The noise of each is slight, but alike over whole charts,
+/// and the last sweep would hand it on.
+void settle(BakeState& state, Progress& progress) {
+    const BakeParams& p = state.params;
+    std::vector<Vec3> sum(state.irradiance.size(), Vec3(0));
+    for (int i = 0; i < p.settlingSweeps; ++i) {
+        propagateOnce(state, p.coarseDirections, p.coarseCells, state.report.sweeps, progress);
+        for (std::size_t t = 0; t < sum.size(); ++t) sum[t] += state.irradiance[t];
+    }
+    for (std::size_t t = 0; t < sum.size(); ++t)
+        state.irradiance[t] = sum[t] / static_cast<float>(p.settlingSweeps);
+}
+
+}  // namespace
 
 void propagate(BakeState& state, Progress& progress) {
     const BakeParams& p = state.params;
@@ -123,6 +155,7 @@ void propagate(BakeState& state, Progress& progress) {
         convergence.update(state);
     }
     state.report.residual = convergence.residual();
+    if (p.maxBounces == 0 && p.settlingSweeps > 0) settle(state, progress);
     propagateOnce(state, p.directions, p.cells, -1, progress);
 }
 

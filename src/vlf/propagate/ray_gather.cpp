@@ -91,6 +91,7 @@ void RayGatherer::advance(const TexelBuffer& radiance, TexelBuffer& gathered) {
         const std::uint32_t chart = front ? charts.front : charts.back;
         if (chart == kNoChart) continue;
         const Vec3 position = queue_[i].origin + hit.t * queue_[i].direction;
+        if (countsItself && radiance.weight(texelAt(unwrap_, chart, position)) <= 0) continue;
         if (countsItself || path.reflections > 0)
             gathered.add(
                 path.receiver,

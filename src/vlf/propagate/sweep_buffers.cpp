@@ -3,7 +3,7 @@
 namespace vlf {
 
 void SweepScratch::Buffers::prepare(int cells) {
-    const std::size_t wanted = cells + sweep::kPadding;
+    const std::size_t wanted = (cells / sweep::kPadding + 2) * sweep::kPadding;
     if (stride != wanted) {
         stride = wanted;
         layerCapacity = layersUsed = 0;

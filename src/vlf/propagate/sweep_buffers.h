@@ -4,6 +4,7 @@
 #include "vlf/propagate/bundle_sweep.h"
 
 #include <limits>
+#include <new>
 
 namespace vlf {
 
@@ -15,8 +16,23 @@ inline constexpr std::uint32_t kMirrorBit = 1u << 30;
 inline constexpr std::uint32_t kTexelMask = kMirrorBit - 1;
 inline constexpr std::uint32_t kNone = kTexelMask;  // no fragment: neither exit nor mirror
 
-/// SIMD loads and stores may reach this many cells beyond a row's end.
+/// SIMD loads and stores may reach this many cells beyond a row's end; rows begin at multiples.
 inline constexpr std::size_t kPadding = 16;
+
+/// Puts the layers at the start of cache lines, so that no vector lies across two.
+template <class T>
+struct LineAllocator {
+    using value_type = T;
+    static constexpr std::align_val_t kLine{64};
+
+    LineAllocator() = default;
+    template <class U>
+    LineAllocator(const LineAllocator<U>&) {}
+
+    T* allocate(std::size_t n) { return static_cast<T*>(::operator new(n * sizeof(T), kLine)); }
+    void deallocate(T* p, std::size_t) { ::operator delete(p, kLine); }
+    friend bool operator==(const LineAllocator&, const LineAllocator&) { return true; }
+};
 
 inline constexpr float kFar = std::numeric_limits<float>::infinity();
 
@@ -53,8 +69,8 @@ struct SweepScratch::Buffers {
     std::vector<sweep::Span> spans;
     std::vector<std::uint32_t> rowHead;
     // Sorted layers of one row: layer k at [k * stride].
-    std::vector<float> depth;
-    std::vector<std::uint32_t> fragment;
+    std::vector<float, sweep::LineAllocator<float>> depth;
+    std::vector<std::uint32_t, sweep::LineAllocator<std::uint32_t>> fragment;
     std::size_t stride = 0, layerCapacity = 0, layersUsed = 0;
     std::vector<std::uint32_t> near, far;  // pairs to exchange
 

@@ -1,6 +1,9 @@
 #include "vlf/unwrap/buried_points.h"
 
 #include "vlf/base/parallel.h"
+#include "vlf/math/frame.h"
+#include "vlf/math/random.h"
+#include "vlf/math/sampling.h"
 
 #include <algorithm>
 #include <array>
@@ -10,6 +13,7 @@ namespace vlf {
 namespace {
 
 constexpr std::size_t kProbes = 4;  // points tried before all of a texel's are
+constexpr int kDirections = 12;     // that a point under a closed side looks in
 constexpr float kLift = 0.01f;      // height, in texels, at which corners look for each other
 
 class BurialTest {
@@ -54,16 +58,28 @@ class BurialTest {
         return !rays_.occluded({p, q - p, 0, 1});
     }
 
+    /// A closed side straight above is a hint, one in most directions the proof: down a deep shaft,
+    /// too, one may see a side that no light was found to reach.
     bool isOpen(std::size_t texel, const SurfacePoint& point) const {
         const std::uint32_t chart = unwrap_.texelChart[texel];
         const bool front = unwrap_.triangleCharts[point.triangle].front == chart;
         const Vec3 n = geometricNormal(scene_, point.triangle) * (front ? 1.0f : -1.0f);
-        const Vec3 p = positionAt(scene_, point.triangle, point.barycentric);
-        const Hit hit = rays_.closest({p + rays_.epsilon() * n, n});
+        const Vec3 p = positionAt(scene_, point.triangle, point.barycentric) + rays_.epsilon() * n;
+        if (seesOpen(Ray{p, n})) return true;
+        const Frame frame = frameFromNormal(n);
+        std::uint32_t closed = 0;
+        for (std::uint32_t i = 0; i < kDirections && 2 * closed < kDirections; ++i)
+            closed +=
+                !seesOpen(Ray{p, frame.toWorld(sampleCosineHemisphere(r2Point(i, Vec2(0.5f))))});
+        return 2 * closed < kDirections;
+    }
+
+    bool seesOpen(const Ray& ray) const {
+        const Hit hit = rays_.closest(ray);
         if (!hit) return true;
-        const bool seesFront = glm::dot(geometricNormal(scene_, hit.triangle), n) < 0;
+        const bool front = glm::dot(geometricNormal(scene_, hit.triangle), ray.direction) < 0;
         const TriangleCharts& charts = unwrap_.triangleCharts[hit.triangle];
-        return (seesFront ? charts.front : charts.back) != kNoChart;
+        return (front ? charts.front : charts.back) != kNoChart;
     }
 
     const Scene& scene_;

@@ -109,10 +109,11 @@ void coverTexels(const Scene& scene, Unwrap& result) {
 
 /// Pairs every uncovered texel of a chart that has a covered neighbour with it.
 void findProxies(Unwrap& result) {
-    enum : std::uint8_t { empty, covered, divided };
+    enum : std::uint8_t { empty, covered, excluded };
     std::vector<std::uint8_t> state(result.atlasSize(), empty);
     for (const std::uint32_t t : result.texels) state[t] = covered;
-    for (const DividedTexel& t : result.divided) state[t.texel] = divided;
+    for (const std::uint32_t t : result.buried) state[t] = excluded;
+    for (const DividedTexel& t : result.divided) state[t.texel] = excluded;
     result.proxies.clear();
     for (const Chart& c : result.charts)
         for (std::uint32_t y = c.y; y < c.y + c.height; ++y)

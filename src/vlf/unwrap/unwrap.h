@@ -40,15 +40,13 @@ struct Unwrap {
     TexelPoints points;
     std::vector<float> pointArea;  ///< per chart: surface area that a point stands for, m²
 
-    /// Atlas indices of texels within solids, or behind panels: black, and no receivers.
+    /// Texels that take no part in transport, being neither samples nor receivers: those within
+    /// solids or behind panels (atlas indices), and those that a wall divides.
     std::vector<std::uint32_t> buried;
-
-    /// They take no part in transport, being neither samples nor receivers.
     std::vector<DividedTexel> divided;
 
     /// Texels within a chart that the points miss but a ray may still hit (slivers of the
-    /// surface, open parts of buried texels), and the covered neighbour that stands for them.
-    /// Atlas indices.
+    /// surface), and the covered neighbour that stands for them. Atlas indices.
     std::vector<std::pair<std::uint32_t, std::uint32_t>> proxies;
 
     std::vector<SeamLink> seams;

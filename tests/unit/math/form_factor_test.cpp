@@ -64,4 +64,13 @@ TEST(TriangleFormFactor, ClipsATriangleThatCrossesTheHorizon) {
 }
 
 }  // namespace
+TEST(TriangleFormFactor, TheSurfaceHidesWhatLiesBelowIt) {
+    // Of a quad above, the half on the positive side of the tilted surface's plane counts.
+    const Vec3 a(-1, -1, 1), b(1, -1, 1), c(1, 1, 1), d(-1, 1, 1);
+    const Vec3 tilted(1, 0, 0);
+    const float half = triangleFormFactor(Vec3(0), kUp, tilted, a, b, c) +
+                       triangleFormFactor(Vec3(0), kUp, tilted, a, c, d);
+    EXPECT_NEAR(half, 0.5f * squareFormFactor(1, 1), 1e-6f);
+}
+
 }  // namespace vlf
