@@ -205,7 +205,6 @@ class DirectGatherer {
             seen += s.geometry * s.throughput * s.radiance;
             visible += maxComponent(s.throughput) > 0 ? s.geometry : 0;
         }
-        if (geometry <= 0) return {};
         const auto count = static_cast<float>(n);
         if (!hasFormFactor(light)) {
             const Vec3 mean = seen / count;
@@ -214,12 +213,16 @@ class DirectGatherer {
             return {mean, spread / count};
         }
         // The unoccluded part of a plain light is known exactly: only the share of it that is
-        // visible is sampled.
-        const Vec3 value =
-            light.radiance * kPi * formFactor(r, light, image) * (throughput / geometry);
+        // visible is sampled. Where no sample could tell, one half stands for it.
+        const Vec3 unoccluded = light.radiance * kPi * formFactor(r, light, image);
+        if (geometry <= 0) {
+            const Vec3 value = 0.5f * unoccluded * image.throughput;
+            return {value, luminance(value) * luminance(value)};
+        }
+        const Vec3 value = unoccluded * (throughput / geometry);
         const float share = visible / geometry;
-        const float unoccluded = luminance(value) / std::max(share, 0.5f / count);
-        return {value, unoccluded * unoccluded * share * (1 - share) / count};
+        const float whole = luminance(value) / std::max(share, 0.5f / count);
+        return {value, whole * whole * share * (1 - share) / count};
     }
 
     /// Pairs of a point of the texel and one of the light, both stratified, that face each other.

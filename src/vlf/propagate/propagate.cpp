@@ -31,12 +31,20 @@ constexpr std::size_t kAccumulators = 8;
 constexpr int kMinSamples = 64;
 constexpr std::size_t kTexelsPerBlock = 256;
 
-/// L = ρ E / π for every texel. Those that have none, buried or divided, are no sample to others.
+bool isBlack(const Material& material) {
+    return maxComponent(material.diffuse) <= 0;
+}
+
+/// L = ρ E / π for every texel. Buried and divided ones, whose E is not known, are no samples
+/// unless they are black.
 TexelBuffer emit(const BakeState& state) {
     TexelBuffer radiance(state.unwrap.atlasSize());
     const auto& texels = state.unwrap.texels;
     for (std::size_t i = 0; i < texels.size(); ++i)
         radiance.set(texels[i], state.reflectance[i] * state.irradiance[i] / kPi, 1);
+    for (const auto& [texel, chart] : state.unwrap.divided)
+        if (isBlack(state.scene.materials[state.unwrap.charts[chart].material]))
+            radiance.set(texel, Vec3(0), 1);
     for (const auto& [texel, proxy] : state.unwrap.proxies)
         radiance.set(texel, radiance.rgb(proxy), 1);
     radiance.set(radiance.texelCount(), Vec3(0), 1);  // outside: black
