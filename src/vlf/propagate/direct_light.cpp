@@ -14,7 +14,7 @@ namespace vlf {
 namespace {
 
 constexpr int kMaxAnalyticTriangles = 8;
-constexpr float kFar = 4;  // radii of a texel: light varies little over it
+constexpr float kAgreement = 0.1f;  // relative spread of form factors over a texel
 constexpr std::array<std::size_t, kTexelGrid> kLatinSquare{1, 3, 0, 2};  // column taken in each row
 constexpr float kMinSamples = 3;
 constexpr float kLittle = 0.01f;   // share of the likely effect of all lights
@@ -22,10 +22,10 @@ constexpr float kGrazing = 1e-5f;  // cosine: a point in a light's own plane get
 constexpr std::size_t kTexelsPerBlock = 64;
 
 // Later passes go over texels in or beside a penumbra or close to a light: towards a standard error
-// of kTarget (relative to the texel's light and the room's; less where it is brighter than the
-// mean, so that no texel has more than its share of the whole error), by at least kRefinement times
-// the samples of the first pass and no more than the pass allows.
-constexpr float kTarget = 0.025f, kRefineAbove = 0.004f;
+// of kTarget / √samples (relative to the texel's light and the room's; less where it is brighter
+// than the mean, so that no texel has more than its share of the whole error), by at least
+// kRefinement times the samples of the first pass and no more than the pass allows.
+constexpr float kTarget = 0.08f, kRefineAbove = 0.004f;
 constexpr int kRefinement = 6;
 constexpr std::array<int, 2> kMaxRefinement{48, 1024};
 constexpr float kWorthwhile = 0.25f;  // fewer more samples than this share do not matter
@@ -274,30 +274,38 @@ class DirectGatherer {
         return cosReceiver * cosLight / (squared * squared * lobe(p));
     }
 
-    /// Mean form factor over the texel's points: over four of a full one that is far from the
-    /// light.
+    /// Mean form factor over the texel's points; over four of a full one if they agree.
     float formFactor(const Receiver& r, const Light& light, const LightImage& image) const {
-        const float distance = glm::distance(r.centre, image.imageFromWorld.point(light.centre));
-        const bool few = r.points.size() == kLatinSquare.size() * kLatinSquare.size() &&
-                         distance - light.radius > kFar * r.radius;
-        const std::size_t count = few ? kLatinSquare.size() : r.points.size();
-        float sum = 0;
-        for (std::size_t i = 0; i < count; ++i) {
-            const std::size_t k = few ? kLatinSquare.size() * i + kLatinSquare[i] : i;
-            const Point p = surfacePoint(r, k);
-            for (const std::uint32_t t : light.triangles) {
-                std::array<Vec3, 3> corner;
-                for (int c = 0; c < 3; ++c)
-                    corner[c] = image.imageFromWorld.point(scene_.position(t, c));
-                const Vec3 n = image.imageFromWorld.vector(light.normal);
-                const Vec3 fromLight = p.position - corner[0];
-                if (glm::dot(n, fromLight) <= kGrazing * glm::length(fromLight)) continue;
-                sum += triangleFormFactor(p.position, p.shading, p.geometric, corner[0], corner[1],
-                                          corner[2]) /
-                       lobe(p);
+        if (r.points.size() == kLatinSquare.size() * kLatinSquare.size()) {
+            float sum = 0, least = 1, most = 0;
+            for (std::size_t i = 0; i < kLatinSquare.size(); ++i) {
+                const std::size_t k = kLatinSquare.size() * i + kLatinSquare[i];
+                const float f = formFactor(surfacePoint(r, k), light, image);
+                sum += f;
+                least = std::min(least, f);
+                most = std::max(most, f);
             }
+            if (most - least < kAgreement * most) return sum / kLatinSquare.size();
         }
-        return sum / static_cast<float>(count);
+        float sum = 0;
+        for (std::size_t i = 0; i < r.points.size(); ++i)
+            sum += formFactor(surfacePoint(r, i), light, image);
+        return sum / static_cast<float>(r.points.size());
+    }
+
+    float formFactor(const Point& p, const Light& light, const LightImage& image) const {
+        float sum = 0;
+        for (const std::uint32_t t : light.triangles) {
+            std::array<Vec3, 3> corner;
+            for (int c = 0; c < 3; ++c)
+                corner[c] = image.imageFromWorld.point(scene_.position(t, c));
+            const Vec3 n = image.imageFromWorld.vector(light.normal);
+            const Vec3 fromLight = p.position - corner[0];
+            if (glm::dot(n, fromLight) <= kGrazing * glm::length(fromLight)) continue;
+            sum += triangleFormFactor(p.position, p.shading, p.geometric, corner[0], corner[1],
+                                      corner[2]);
+        }
+        return sum / lobe(p);
     }
 
     void addShadowRay(const Point& p, const Vec3& y) {
@@ -361,8 +369,11 @@ void forEachTexel(std::size_t texels, const DirectGatherer& prototype, ProgressC
 /// Which texels lie in or beside a penumbra, at a shadow's edge or close to a light.
 class PenumbraFinder {
   public:
-    PenumbraFinder(const Unwrap& unwrap, const std::vector<DirectEstimate>& estimates)
-        : unwrap_(unwrap), estimates_(estimates), entryOf_(unwrap.atlasSize(), kNone) {
+    PenumbraFinder(const Unwrap& unwrap, const std::vector<DirectEstimate>& estimates, int samples)
+        : unwrap_(unwrap),
+          estimates_(estimates),
+          target_(kTarget / std::sqrt(static_cast<float>(samples))),
+          entryOf_(unwrap.atlasSize(), kNone) {
         double sum = 0;
         for (std::size_t i = 0; i < estimates.size(); ++i) {
             entryOf_[unwrap.texels[i]] = static_cast<std::uint32_t>(i);
@@ -407,12 +418,13 @@ class PenumbraFinder {
         const float risk = unknown > kBright * light ? unknown : 0;
         const float error = std::max(std::sqrt(e.variance), risk) / light;
         if (error < kRefineAbove) return 0;
-        const float target = kTarget / std::sqrt(std::max(1.0f, light / (kBright * mean_)));
+        const float target = target_ / std::sqrt(std::max(1.0f, light / (kBright * mean_)));
         return static_cast<float>(e.samples) * error * error / (target * target);
     }
 
     const Unwrap& unwrap_;
     const std::vector<DirectEstimate>& estimates_;
+    float target_;                        // relative standard error of a texel like the mean
     std::vector<std::uint32_t> entryOf_;  // per atlas texel
     float mean_ = 0;                      // luminance over all texels
 };
@@ -444,7 +456,7 @@ std::vector<Vec3> directIrradiance(const Scene& scene, const RayScene& rays, con
     });
     for (std::size_t pass = 0; pass < kMaxRefinement.size(); ++pass) {
         const std::vector<DirectEstimate> before = estimates;
-        const PenumbraFinder finder(unwrap, before);
+        const PenumbraFinder finder(unwrap, before, params.samples);
         forEachTexel(texels, prototype, done, [&](DirectGatherer& gatherer, std::size_t i) {
             const float wanted = pass == 0 ? finder.wantedAfterFirst(i) : finder.wanted(i);
             const int more = samplesToAdd(before[i], wanted, params.samples,
