@@ -6,6 +6,8 @@
 #include "vlf/render/cpu/irradiance_error.h"
 #include "vlf/scene/generate/generate.h"
 
+#include "support/analytic_scenes.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -103,6 +105,20 @@ TEST(PathTracing, AgreesByTheCaustics) {
     std::printf("caustic: relative RMSE %.3f %%, bias %+.3f %% (+- %.3f %%)\n",
                 100 * e.relativeRmse, 100 * e.bias, 100 * e.biasError);
     EXPECT_LT(std::abs(e.bias), 3 * e.biasError + 0.01);
+}
+
+TEST(PathTracing, AgreesOnARoundBodyOfFewFacets) {
+    // Facets much larger than texels: irradiance follows the shading normal across each.
+    SceneBuilder b;
+    b.box({0, 0, 0}, {3, 3, 3}, true, b.material("wall", Vec3(0.7f, 0.6f, 0.5f)));
+    b.quad({1, 2.99f, 1}, {1, 0, 0}, {0, 0, 1}, b.material("lamp", Vec3(0), Vec3(10)));
+    const std::size_t facets = b.scene().triangles.size();
+    b.sphere({1.5f, 1.2f, 1.5f}, 0.6f, 1, false, b.material("ball", Vec3(0.5f)));
+    const SolvedScene s(b.scene(), standardTransport(25000));
+    const auto onBall = [&](std::size_t i) {
+        return s.state.unwrap.points.of(i)[0].triangle >= facets;
+    };
+    expectAgreement("ball of 80 facets", errorAgainstPathTracing(s, onBall), 0.02, 0.003);
 }
 
 }  // namespace vlf::test

@@ -8,7 +8,7 @@ namespace vlf {
 namespace {
 
 constexpr float kStraight = 0.9995f;  // cos 1.8°: normals this close count as one
-constexpr float kMinCosine = 0.05f;   // rays that graze more are held to this one's weight
+constexpr float kMinCosine = 0.02f;   // rays that graze more are held to this one's weight
 
 }  // namespace
 

@@ -19,13 +19,14 @@ constexpr std::array<std::size_t, kTexelGrid> kLatinSquare{1, 3, 0, 2};  // colu
 constexpr float kMinSamples = 3;
 constexpr float kLittle = 0.01f;   // share of the likely effect of all lights
 constexpr float kGrazing = 1e-5f;  // cosine: a point in a light's own plane gets nothing from it
+constexpr float kSlack = 0.01f;    // texels
 constexpr std::size_t kTexelsPerBlock = 64;
 
 // Later passes go over texels in or beside a penumbra or close to a light: towards a standard error
 // of kTarget / √samples (relative to the texel's light and the room's; less where it is brighter
 // than the mean, so that no texel has more than its share of the whole error), by at least
 // kRefinement times the samples of the first pass and no more than the pass allows.
-constexpr float kTarget = 0.08f, kRefineAbove = 0.004f;
+constexpr float kTarget = 0.065f, kRefineAbove = 0.004f;
 constexpr int kRefinement = 6;
 constexpr std::array<int, 2> kMaxRefinement{48, 1024};
 constexpr float kWorthwhile = 0.25f;  // fewer more samples than this share do not matter
@@ -314,9 +315,30 @@ class DirectGatherer {
         shadowRays_.push_back({origin, d, 0, 1 - 2 * rays_.epsilon() / glm::length(d)});
     }
 
+    /// Whether the line from p to the image of y crosses the rectangles of all its mirrors, which
+    /// most do not: cheaper than to trace it.
+    bool mayCrossMirrors(const Vec3& p, const LightImage& image, const Vec3& y) const {
+        Vec3 from = p, to = image.imageFromWorld.point(y);
+        for (int k = 0; k < image.depth; ++k) {
+            const Chart& mirror = unwrap_.charts[image.mirror[k]];
+            const float plane = sources_.mirrorOffset[image.mirror[k]];
+            const float before = glm::dot(mirror.normal, from) - plane;
+            const float behind = plane - glm::dot(mirror.normal, to);
+            if (before <= 0 || behind <= 0) return false;
+            from += (before / (before + behind)) * (to - from);
+            const Vec2 crossing = mirror.texelCoordinates(from);
+            if (crossing.x < -kSlack || crossing.x > mirror.width + kSlack ||
+                crossing.y < -kSlack || crossing.y > mirror.height + kSlack)
+                return false;
+            to += 2 * behind * mirror.normal;
+        }
+        return true;
+    }
+
     /// Product of the reflectances of the image's mirrors if the light's point y is seen over
     /// exactly them, else zero.
     Vec3 followImage(const Point& p, const LightImage& image, const Vec3& y) const {
+        if (!mayCrossMirrors(p.position, image, y)) return Vec3(0);
         Vec3 throughput(1);
         Vec3 origin = p.position + rays_.epsilon() * p.geometric;
         Vec3 direction = glm::normalize(image.imageFromWorld.point(y) - origin);

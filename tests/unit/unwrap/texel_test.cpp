@@ -3,6 +3,7 @@
 #include "unwrapped_scene.h"
 
 #include "vlf/scene/generate/generate.h"
+#include "vlf/unwrap/buried_points.h"
 
 #include <gtest/gtest.h>
 
@@ -88,6 +89,22 @@ TEST(BuriedPoints, FloorUnderATableStays) {
     const std::uint32_t floor = room.unwrap.triangleCharts[4].front;
     EXPECT_EQ(std::count(room.unwrap.texelChart.begin(), room.unwrap.texelChart.end(), floor),
               40 * 40);
+}
+
+TEST(BuriedPoints, AClosedSideFarAboveBuriesNothing) {
+    for (const float height : {0.01f, 2.0f}) {
+        SceneBuilder b = litRoom();
+        const auto panel = static_cast<std::uint32_t>(b.scene().triangles.size());
+        b.quad({1, height, 1}, {0, 0, 1}, {1, 0, 0}, b.material("panel", Vec3(0.5f)));
+        UnwrappedScene room(b.scene(), {0.1f});
+        const std::uint32_t floor = room.unwrap.triangleCharts[4].front;
+        for (const std::uint32_t t : {panel, panel + 1})
+            room.unwrap.triangleCharts[t].back = kNoChart;
+        dropBuriedPoints(room.scene, RayScene(room.scene), room.unwrap);
+        const auto texels =
+            std::count(room.unwrap.texelChart.begin(), room.unwrap.texelChart.end(), floor);
+        EXPECT_EQ(texels, height > 1 ? 40 * 40 : 40 * 40 - 10 * 10) << height;
+    }
 }
 
 }  // namespace vlf::test
