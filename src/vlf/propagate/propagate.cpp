@@ -42,9 +42,10 @@ TexelBuffer emit(const BakeState& state) {
     const auto& texels = state.unwrap.texels;
     for (std::size_t i = 0; i < texels.size(); ++i)
         radiance.set(texels[i], state.reflectance[i] * state.irradiance[i] / kPi, 1);
-    for (const auto& [texel, chart] : state.unwrap.divided)
-        if (isBlack(state.scene.materials[state.unwrap.charts[chart].material]))
-            radiance.set(texel, Vec3(0), 1);
+    for (const auto* excluded : {&state.unwrap.buried, &state.unwrap.divided})
+        for (const auto& [texel, chart] : *excluded)
+            if (isBlack(state.scene.materials[state.unwrap.charts[chart].material]))
+                radiance.set(texel, Vec3(0), 1);
     for (const auto& [texel, proxy] : state.unwrap.proxies)
         radiance.set(texel, radiance.rgb(proxy), 1);
     radiance.set(radiance.texelCount(), Vec3(0), 1);  // outside: black

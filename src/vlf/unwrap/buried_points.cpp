@@ -111,7 +111,7 @@ void dropBuriedPoints(const Scene& scene, const RayScene& rays, Unwrap& unwrap) 
         for (std::uint32_t k = unwrap.points.first[i]; k < unwrap.points.first[i + 1]; ++k)
             if (keep[k]) kept.points.push_back(unwrap.points.points[k]);
         if (kept.points.size() == kept.first.back()) {
-            if (!divided[i]) unwrap.buried.push_back(unwrap.texels[i]);
+            if (!divided[i]) unwrap.buried.push_back({unwrap.texels[i], unwrap.texelChart[i]});
             continue;
         }
         kept.first.push_back(static_cast<std::uint32_t>(kept.points.size()));

@@ -112,8 +112,8 @@ void findProxies(Unwrap& result) {
     enum : std::uint8_t { empty, covered, excluded };
     std::vector<std::uint8_t> state(result.atlasSize(), empty);
     for (const std::uint32_t t : result.texels) state[t] = covered;
-    for (const std::uint32_t t : result.buried) state[t] = excluded;
-    for (const DividedTexel& t : result.divided) state[t.texel] = excluded;
+    for (const auto* texels : {&result.buried, &result.divided})
+        for (const ChartTexel& t : *texels) state[t.texel] = excluded;
     result.proxies.clear();
     for (const Chart& c : result.charts)
         for (std::uint32_t y = c.y; y < c.y + c.height; ++y)
@@ -150,7 +150,7 @@ bool refineDivided(const Unwrap& u, const std::vector<ChartGroup>& groups,
                    std::vector<float>& texelSizes) {
     std::vector<double> whole(u.charts.size(), 0), divided(u.charts.size(), 0);
     for (const std::uint32_t c : u.texelChart) ++whole[c];
-    for (const DividedTexel& t : u.divided) ++divided[t.chart];
+    for (const ChartTexel& t : u.divided) ++divided[t.chart];
     const auto tooMany = [&](std::uint32_t c) {
         return c != kNoChart && divided[c] > kDividedShare * (whole[c] + divided[c]);
     };

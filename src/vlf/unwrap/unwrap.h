@@ -22,8 +22,8 @@ struct SeamLink {
     Vec2 coordinates;
 };
 
-/// A texel that a wall stands across.
-struct DividedTexel {
+/// A texel and the chart it is of.
+struct ChartTexel {
     std::uint32_t texel;  ///< atlas index
     std::uint32_t chart;
 };
@@ -41,9 +41,8 @@ struct Unwrap {
     std::vector<float> pointArea;  ///< per chart: surface area that a point stands for, m²
 
     /// Texels that take no part in transport, being neither samples nor receivers: those within
-    /// solids or behind panels (atlas indices), and those that a wall divides.
-    std::vector<std::uint32_t> buried;
-    std::vector<DividedTexel> divided;
+    /// solids or behind panels, and those that a wall stands across.
+    std::vector<ChartTexel> buried, divided;
 
     /// Texels within a chart that the points miss but a ray may still hit (slivers of the
     /// surface), and the covered neighbour that stands for them. Atlas indices.

@@ -57,7 +57,7 @@ double uncoveredShare(const UnwrappedScene& s, int pointsPerTriangle) {
     std::vector<bool> known(u.atlasSize(), false);
     for (const std::uint32_t texel : u.texels) known[texel] = true;
     for (const auto& [texel, proxy] : u.proxies) known[texel] = true;
-    for (const DividedTexel& t : u.divided) known[t.texel] = true;
+    for (const ChartTexel& t : u.divided) known[t.texel] = true;
     RandomStream random(1, 2);
     double missed = 0, all = 0;
     for (std::uint32_t t = 0; t < s.scene.triangles.size(); ++t)
