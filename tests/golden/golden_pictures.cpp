@@ -1,0 +1,95 @@
+#include "golden/golden_pictures.h"
+
+#include "vlf/image/tone_map.h"
+#include "vlf/propagate/bake.h"
+#include "vlf/scene/generate/generate.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace vlf::test {
+
+namespace {
+
+constexpr int kWidth = 96, kHeight = 72, kAntialias = 3;
+
+GoldenPicture light(const std::string& scene, const std::string& camera, float exposure) {
+    return {scene, camera, "raytraced", kBakedLight, exposure};
+}
+
+GoldenPicture lookedUp(const std::string& scene, const std::string& camera, LookupKind lookup,
+                       float exposure) {
+    const bool plain = lookup == LookupKind::plain;
+    return {scene, camera, plain ? "plain" : "field", kBakedLight, exposure, DisplayMode::field,
+            lookup};
+}
+
+GoldenPicture wireframe(const std::string& scene, const std::string& camera) {
+    return {scene, camera, "wireframe", kDrawing, 0, DisplayMode::wireframe};
+}
+
+GoldenPicture diagram(const std::string& scene, const std::string& camera, DiagramKind kind,
+                      const std::string& shows, const PictureLimits& limits = kDrawing) {
+    GoldenPicture picture{scene, camera, shows, limits, 0, DisplayMode::diagram};
+    picture.diagram = kind;
+    return picture;
+}
+
+const Camera& cameraOf(const Scene& scene, const std::string& name) {
+    const auto found = std::find_if(scene.cameras.begin(), scene.cameras.end(),
+                                    [&](const Camera& c) { return c.name == name; });
+    if (found == scene.cameras.end()) throw std::logic_error("no camera " + name);
+    return *found;
+}
+
+LightField bakeDraft(const Scene& scene) {
+    Progress progress;
+    return bake(scene, presetParams("draft"), progress);
+}
+
+}  // namespace
+
+const std::vector<GoldenPicture>& goldenPictures() {
+    static const std::vector<GoldenPicture> kPictures{
+        light("cornell", "front", 1),
+        light("two-rooms", "door", 1),
+        light("two-rooms", "dark", 3),
+        light("sealed", "overview", 0),
+        light("caustic", "patch", 0),
+        light("grotto", "pool", 0),
+        lookedUp("grotto", "pool", LookupKind::depthCorrected, 0),
+        light("office", "overview", 0),
+        light("gallery", "statue", 0),
+        light("mirror-room", "mirror", 0),
+        lookedUp("mirror-room", "mirror", LookupKind::depthCorrected, 0),
+        lookedUp("mirror-room", "mirror", LookupKind::plain, 0),
+        wireframe("cornell", "corner"),
+        wireframe("mirror-room", "statue"),
+        diagram("mirror-room", "front", DiagramKind::directions, "directions"),
+        diagram("mirror-room", "front", DiagramKind::subfield, "subfield"),
+        diagram("mirror-room", "front", DiagramKind::tile, "tile"),
+        diagram("mirror-room", "front", DiagramKind::chart, "chart", kBakedLight),
+        diagram("cornell", "front", DiagramKind::chart, "chart", kBakedLight),
+    };
+    return kPictures;
+}
+
+BakedExample::BakedExample(const std::string& name)
+    : scene(generateScene(name)), rays(scene), field(bakeDraft(scene)) {}
+
+Image renderGolden(const BakedExample& baked, const GoldenPicture& picture) {
+    StillParams params;
+    params.camera = cameraOf(baked.scene, picture.camera);
+    params.width = kWidth;
+    params.height = kHeight;
+    params.antialias = kAntialias;
+    params.mode = picture.mode;
+    params.lookup = picture.lookup;
+    params.diagram.kind = picture.diagram;
+    Progress progress;
+    const Image image = renderStill(baked.scene, baked.rays, baked.field, params, progress);
+    return showsRadiance(picture.mode) ? toneMap(image, picture.exposure, ToneCurve::filmic)
+                                       : image;
+}
+
+}  // namespace vlf::test

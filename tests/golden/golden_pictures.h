@@ -1,0 +1,38 @@
+#pragma once
+// The pictures that are kept: what each shows, and how it is made.
+
+#include "golden/picture_difference.h"
+#include "vlf/render/cpu/still.h"
+
+#include <string>
+#include <vector>
+
+namespace vlf::test {
+
+struct GoldenPicture {
+    std::string scene, camera;
+    std::string shows;  ///< the last part of its name
+    PictureLimits limits;
+    float exposure = 0;  ///< EV, of pictures of radiance
+    DisplayMode mode = DisplayMode::raytraced;
+    LookupKind lookup = LookupKind::depthCorrected;
+    DiagramKind diagram = DiagramKind::directions;
+
+    std::string name() const { return scene + "-" + camera + "-" + shows; }
+};
+
+const std::vector<GoldenPicture>& goldenPictures();
+
+/// An example scene baked by the preset "draft".
+struct BakedExample {
+    explicit BakedExample(const std::string& name);
+
+    Scene scene;
+    RayScene rays;
+    LightField field;
+};
+
+/// In display-linear colours in [0, 1].
+Image renderGolden(const BakedExample& baked, const GoldenPicture& picture);
+
+}  // namespace vlf::test
