@@ -31,6 +31,7 @@ struct Options {
     int maxDepth = 0;
     std::string field;  // .vlf whose irradiance is to be measured
     int texels = 0;
+    bool texelPoints = false;
 };
 
 PathTraceParams traceParams(const Options& options, const Globals& globals, const Scene& scene) {
@@ -98,9 +99,10 @@ void run(const Options& options, const Globals& globals) {
     if (!options.field.empty()) {
         if (options.samplesPerPixel <= 0)
             throw CLI::ValidationError("--irradiance", "needs --spp, the samples per texel");
-        return runIrradianceReference({options.scenes, options.field, options.picture.path,
-                                       options.samplesPerPixel, options.texels},
-                                      globals);
+        return runIrradianceReference(
+            {options.scenes, options.field, options.picture.path, options.samplesPerPixel,
+             options.texels, options.texelPoints},
+            globals);
     }
     if (const std::string problem = pictureNameProblem(options.picture.path); !problem.empty())
         throw CLI::ValidationError("--output", problem);
@@ -160,6 +162,8 @@ void addReference(CLI::App& app, const Globals& globals) {
                         "report (.json), --spp the samples per texel");
     command->add_option("--texels", options->texels, "Texels to measure (0: all)")
         ->check(CLI::Range(0, 1 << 30));
+    command->add_flag("--texel-points", options->texelPoints,
+                      "Report the points of the surface that each texel stands for");
     command->footer(
         "Ctrl-C writes the picture as far as it has come.\n\n"
         "Example:\n"

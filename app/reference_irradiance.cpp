@@ -14,6 +14,8 @@
 #include <algorithm>
 #include <chrono>
 #include <ctime>
+#include <numeric>
+#include <span>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -46,29 +48,56 @@ std::vector<std::size_t> chooseTexels(std::size_t available, int count, std::uin
 /// The chosen texels as the estimator and the report want them.
 struct Selection {
     std::vector<std::vector<SidePoint>> points;
-    std::vector<Vec3> baked, position, normal;
+    std::vector<std::vector<Vec3>> positions;  // of the points
+    std::vector<Vec3> normal, baked;
+    std::vector<char> flat;  // shaded as lying in one plane
     std::vector<float> area;
 };
+
+/// Curved surfaces have facets too, with shading normals of their own.
+bool isFlat(const Scene& scene, const Chart& chart, std::span<const SurfacePoint> points) {
+    return chart.planar && std::all_of(points.begin(), points.end(), [&](const SurfacePoint& p) {
+               const Vec3 n = shadingNormalAt(scene, p.triangle, p.barycentric);
+               return std::abs(glm::dot(n, chart.normal)) > 0.99999f;
+           });
+}
 
 Selection select(const BakedRoom& room, const Unwrap& unwrap,
                  const std::vector<std::size_t>& texels) {
     Selection s;
     for (const std::size_t i : texels) {
         const std::uint32_t chart = unwrap.texelChart[i];
-        std::vector<SidePoint> points;
-        Vec3 centre(0);
+        std::vector<SidePoint>& points = s.points.emplace_back();
+        std::vector<Vec3>& positions = s.positions.emplace_back();
         for (const SurfacePoint& p : unwrap.points.of(i)) {
             const bool front = unwrap.triangleCharts[p.triangle].front == chart;
             points.push_back({p.triangle, p.barycentric, front});
-            centre += positionAt(room.scene, p.triangle, p.barycentric);
+            positions.push_back(positionAt(room.scene, p.triangle, p.barycentric));
         }
-        s.position.push_back(centre / static_cast<float>(points.size()));
         s.normal.push_back(unwrap.charts[chart].normal);
-        s.points.push_back(std::move(points));
+        s.flat.push_back(isFlat(room.scene, unwrap.charts[chart], unwrap.points.of(i)));
         s.baked.push_back(room.field.atlas.irradiance[unwrap.texels[i]]);
         s.area.push_back(unwrap.texelArea(i));
     }
     return s;
+}
+
+nlohmann::ordered_json toJson(const Selection& s, std::size_t i, const IrradianceEstimate& truth,
+                              bool withPoints) {
+    const std::vector<Vec3>& positions = s.positions[i];
+    const Vec3 sum = std::accumulate(positions.begin(), positions.end(), Vec3(0));
+    nlohmann::ordered_json texel = {
+        {"position", numbers(sum / static_cast<float>(positions.size()))},
+        {"normal", numbers(s.normal[i])},
+        {"flat", static_cast<bool>(s.flat[i])},
+        {"baked", numbers(s.baked[i])},
+        {"irradiance", numbers(truth.mean)},
+        {"standardError", numbers(truth.standardError)},
+        {"samples", truth.samples},
+        {"area", s.area[i]}};
+    for (const Vec3& p : positions)
+        if (withPoints) texel["points"].push_back(numbers(p));
+    return texel;
 }
 
 nlohmann::ordered_json toJson(const IrradianceOptions& options, const IrradianceError& error,
@@ -76,13 +105,7 @@ nlohmann::ordered_json toJson(const IrradianceOptions& options, const Irradiance
                               double cpuSeconds) {
     nlohmann::ordered_json texels = nlohmann::ordered_json::array();
     for (std::size_t i = 0; i < truth.size(); ++i)
-        texels.push_back({{"position", numbers(s.position[i])},
-                          {"normal", numbers(s.normal[i])},
-                          {"baked", numbers(s.baked[i])},
-                          {"irradiance", numbers(truth[i].mean)},
-                          {"standardError", numbers(truth[i].standardError)},
-                          {"samples", truth[i].samples},
-                          {"area", s.area[i]}});
+        texels.push_back(toJson(s, i, truth[i], options.points));
     return {{"scenes", options.scenes},
             {"field", options.field},
             {"samplesPerTexel", options.samplesPerTexel},

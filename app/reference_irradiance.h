@@ -13,7 +13,8 @@ struct IrradianceOptions {
     std::string field;   ///< .vlf to be measured
     std::string output;  ///< .json
     int samplesPerTexel = 1024;
-    int texels = 0;  ///< how many to look at, spread evenly; 0: all
+    int texels = 0;       ///< how many to look at, spread evenly; 0: all
+    bool points = false;  ///< report the surface points of each texel too
 };
 
 /// Path-traces the irradiance of a field's texels and reports how far the field is off.

@@ -100,9 +100,13 @@ class Pipeline(Case):
     def test_irradiance_against_the_path_tracer(self):
         self.bake("room.vlf")
         self.run_vlf("reference", "cornell.obj", "--irradiance", "room.vlf", "--spp", "256",
-                     "--texels", "100", "-o", "error.json")
+                     "--texels", "100", "--texel-points", "-o", "error.json")
         report = self.json("error.json")
         self.assertEqual(len(report["texels"]), 100)
+        for texel in report["texels"]:
+            mean = [sum(axis) / len(texel["points"]) for axis in zip(*texel["points"])]
+            for a, b in zip(mean, texel["position"]):
+                self.assertAlmostEqual(a, b, places=4)
         self.assertLess(report["relativeRmse"], 0.1)
 
     def test_the_field_is_the_same_for_any_number_of_threads(self):
