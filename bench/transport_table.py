@@ -1,47 +1,39 @@
 #!/usr/bin/env python3
 """Irradiance error against CPU time: the table of docs/benchmarks.md.
 
-    bench/transport_table.py build/release/app/vlf [--texels 1000] [--spp 4096] [SCENE ...]
+    bench/transport_table.py build/release/app/vlf [--texels 1000] [--spp 4096] [--cache DIR]
+        [SCENE ...]
 
 Bakes the project's scenes, path-traces the irradiance of some of their texels with the same
 program and prints, per scene, what the bake took and what path tracing all texels to the same error
 would take (its error falls with the square root of the samples). CPU seconds, so that other work on
-the machine matters less. A scene is a name known to `vlf scene` or a file.
+the machine matters less. A scene is a name known to `vlf scene` or a file. The truth is kept in the
+cache, with the time it took, for fields that have the same texels.
 """
 
 import argparse
-import json
 import pathlib
-import subprocess
 import tempfile
+
+from irradiance_truth import IrradianceTruth
+from program import bake, cpu_seconds, scene_file
 
 SCENES = ["cornell", "two-rooms", "mirror-room", "gallery", "office"]
 
 
-def run(*command):
-    subprocess.run([str(c) for c in command], check=True)
-
-
-def measure(vlf, scene, args, folder):
-    path = pathlib.Path(scene)
-    if path.suffix == "":
-        run(vlf, "-q", "scene", scene, "-o", folder)
-        path = folder / f"{scene}.obj"
-    field, report, errors = folder / "f.vlf", folder / "bake.json", folder / "error.json"
-    run(vlf, "-q", "bake", path, "-o", field, "--preset", args.preset, "--radiance-directions", 0,
-        "--json", report)
-    run(vlf, "-q", "reference", path, "--irradiance", field, "--spp", args.spp, "--texels",
-        args.texels, "-o", errors)
-    bake, error = json.loads(report.read_text()), json.loads(errors.read_text())
-    stages = {"charts", "direct light", "bounces", "atlas"}
-    cpu = sum(s["cpuSeconds"] for s in bake["stages"] if s["name"] in stages)
+def measure(args, scene, folder):
+    path, field = scene_file(args.vlf, scene, folder), folder / "f.vlf"
+    report = bake(args.vlf, path, field, "--preset", args.preset, "--radiance-directions", 0)
+    truth = IrradianceTruth(args.vlf, args.cache or folder / "truth", args.texels, args.spp)
+    error = truth.of(path, field)
+    cpu = cpu_seconds(report)
     traced = len(error["texels"])
     # An error far below the truth's own noise is not measured: then it is a bound.
     floor = 0.5 * error["truthError"]
     rmse, sign = max(error["relativeRmse"], floor), "≤ " if error["relativeRmse"] < floor else ""
-    to_equal = error["cpuSeconds"] * bake["texels"] / traced * (error["truthError"] / rmse) ** 2
+    to_equal = error["cpuSeconds"] * report["texels"] / traced * (error["truthError"] / rmse) ** 2
     at_least = "≥ " if sign else ""
-    print(f"| {path.stem} | {bake['texels']} | {cpu:.2f} | {sign}{100 * rmse:.2f} % | "
+    print(f"| {path.stem} | {report['texels']} | {cpu:.2f} | {sign}{100 * rmse:.2f} % | "
           f"{100 * error['bias']:+.3f} ± {100 * error['biasError']:.3f} % | "
           f"{at_least}{to_equal:.0f} | {at_least}{to_equal / cpu:.0f}x |", flush=True)
 
@@ -53,12 +45,13 @@ def main():
     parser.add_argument("--preset", default="standard")
     parser.add_argument("--texels", type=int, default=1000)
     parser.add_argument("--spp", type=int, default=4096)
-    args = parser.parse_args()
+    parser.add_argument("--cache", type=pathlib.Path, help="folder that keeps the truth")
+    args = parser.parse_intermixed_args()
     print("| scene | texels | bake, CPU s | error | bias | path tracing to it, CPU s | factor |")
     print("| --- | ---: | ---: | ---: | ---: | ---: | ---: |")
     for scene in args.scenes:
         with tempfile.TemporaryDirectory() as folder:
-            measure(args.vlf, scene, args, pathlib.Path(folder))
+            measure(args, scene, pathlib.Path(folder))
 
 
 if __name__ == "__main__":

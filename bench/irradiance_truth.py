@@ -1,0 +1,56 @@
+"""The irradiance error of fields, with path-traced truths that are kept and used again.
+
+Tracing the truth takes nearly all the time of a table. It depends on the scene and on where the
+texels are, not on their light: fields with the same texels share one.
+"""
+
+import hashlib
+import json
+import math
+
+from program import info, report_of, run
+
+
+def _measure(vlf, scene, field, texels, spp, report):
+    run(vlf, "-q", "reference", scene, "--irradiance", field, "--texels", texels, "--spp", spp,
+        "-o", report)
+    return report_of(report)
+
+
+class IrradianceTruth:
+    """The truth of some texels of a scene at so many samples, from `cache` if it is there."""
+
+    def __init__(self, vlf, cache, texels, spp):
+        self.vlf, self.cache, self.texels, self.spp = vlf, cache, texels, spp
+        cache.mkdir(parents=True, exist_ok=True)
+
+    def of(self, scene, field):
+        """The report of `vlf reference --irradiance` with the baked values and errors of `field`."""
+        baked = _measure(self.vlf, scene, field, self.texels, 1, self.cache / "baked.json")
+        places = [(t["position"], t["normal"]) for t in baked["texels"]]
+        scene_hash = info(self.vlf, field)["bake"]["sceneHash"]
+        key = hashlib.sha256(json.dumps([scene_hash, places]).encode()).hexdigest()
+        path = self.cache / f"{scene.stem}-{self.spp}-{key[:16]}.json"
+        if not path.exists():
+            _measure(self.vlf, scene, field, self.texels, self.spp, path)
+        return _with_errors(report_of(path), baked["texels"])
+
+
+def _with_errors(truth, baked):
+    """The errors as in src/vlf/render/cpu/irradiance_error.h, for baked values of another field."""
+    squares = truth_squares = variance = difference = difference_variance = total = 0.0
+    for texel, other in zip(truth["texels"], baked):
+        if texel["samples"] < 2:
+            continue
+        area = texel["area"]
+        for b, t, s in zip(other["baked"], texel["irradiance"], texel["standardError"]):
+            squares += area * (b - t) ** 2
+            truth_squares += area * t * t
+            variance += area * s * s
+            difference += area * (b - t)
+            difference_variance += (area * s) ** 2
+            total += area * t
+    signal = truth_squares - variance
+    return {**truth, "relativeRmse": math.sqrt(max(0.0, squares - variance) / signal),
+            "truthError": math.sqrt(variance / signal), "bias": difference / total,
+            "biasError": math.sqrt(difference_variance) / total}
