@@ -7,6 +7,7 @@ texels are, not on their light: fields with the same texels share one.
 import hashlib
 import json
 import math
+import tempfile
 
 from program import info, report_of, run
 
@@ -26,7 +27,8 @@ class IrradianceTruth:
 
     def of(self, scene, field):
         """The report of `vlf reference --irradiance` with the baked values and errors of `field`."""
-        baked = _measure(self.vlf, scene, field, self.texels, 1, self.cache / "baked.json")
+        with tempfile.TemporaryDirectory() as folder:
+            baked = _measure(self.vlf, scene, field, self.texels, 1, f"{folder}/baked.json")
         places = [(t["position"], t["normal"]) for t in baked["texels"]]
         scene_hash = info(self.vlf, field)["bake"]["sceneHash"]
         key = hashlib.sha256(json.dumps([scene_hash, places]).encode()).hexdigest()
