@@ -66,7 +66,7 @@ def measure(args, scene, folder):
     row = f"| {path.stem} | {baked.all:.2f} | {100 * baked.error:.2f} % "
     if len(points) < 2 or points[-1].error >= baked.error:
         last = points[-1]
-        return row + f"| {last.rays}: {100 * last.error:.2f} % | {last.all:.2f} | not comparable | |"
+        return row + f"| {last.rays}: {100 * last.error:.2f} % | {last.all:.2f} | not compared | |"
     rays, cpu, bounces = (at_error(points, baked.error, q) for q in
                           (lambda p: p.rays, lambda p: p.all, lambda p: p.bounces))
     return row + (f"| {rays:.0f} | {cpu:.2f} | {cpu / baked.all:.1f}x | "

@@ -26,7 +26,7 @@ class IrradianceTruth:
         cache.mkdir(parents=True, exist_ok=True)
 
     def of(self, scene, field):
-        """The report of `vlf reference --irradiance` with the baked values and errors of `field`."""
+        """The report of `vlf reference --irradiance` with the errors of `field`."""
         with tempfile.TemporaryDirectory() as folder:
             baked = _measure(self.vlf, scene, field, self.texels, 1, f"{folder}/baked.json")
         places = [(t["position"], t["normal"]) for t in baked["texels"]]

@@ -43,7 +43,8 @@ def measure(args, scene, setting, folder):
         worst = min(c[rays]["depthCorrected"] for c in cameras)
         print(f"| {setting} | {name} | {plain:.1f} dB | {corrected:.1f} dB | "
               f"{corrected - plain:+.1f} dB | {worst:.1f} dB |", flush=True)
-    times = " / ".join(f"{mean_time(cameras, w):.0f}" for w in ("plain", "depthCorrected", "traced"))
+    ways = ("plain", "depthCorrected", "traced")
+    times = " / ".join(f"{mean_time(cameras, way):.0f}" for way in ways)
     return (f"| {setting} | {times} | {baked['radianceElements'] / 1e6:.1f} M | "
             f"{baked['fileBytes'] / 1e6:.1f} MB | {seconds:.1f} |")
 

@@ -1,4 +1,4 @@
-"""What the scripts of this folder share: running vlf, its scenes, and baking with the times noted."""
+"""What the scripts of this folder share: running vlf, its scenes, bakes and their times."""
 
 import json
 import pathlib
@@ -23,7 +23,7 @@ def info(vlf, field):
 
 
 def scene_file(vlf, scene, folder):
-    """The path of a scene: that of a file, or of one that `vlf scene` knows, written to `folder`."""
+    """The path of a scene: a file, or one that `vlf scene` knows, written to `folder`."""
     path = pathlib.Path(scene)
     if path.suffix:
         return path
