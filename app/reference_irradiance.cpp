@@ -32,15 +32,28 @@ void requireSameScene(const IrradianceOptions& options, const BakedRoom& room) {
                          options.scenes.front() + ": bake it again, or name the files it is from");
 }
 
-/// Texels spread evenly over the atlas: one at random of each of `count` equal strata.
-std::vector<std::size_t> chooseTexels(std::size_t available, int count, std::uint64_t seed) {
+/// Texels that scatter light: what falls on a black surface, a lamp or a plain mirror, is never
+/// seen.
+std::vector<std::size_t> scatteringTexels(const Scene& scene, const Unwrap& unwrap) {
+    std::vector<std::size_t> texels;
+    for (std::size_t i = 0; i < unwrap.texels.size(); ++i) {
+        const Chart& chart = unwrap.charts[unwrap.texelChart[i]];
+        if (maxComponent(scene.materials[chart.material].diffuse) > 0) texels.push_back(i);
+    }
+    return texels;
+}
+
+/// Of these `count` spread evenly over the atlas: one at random of each of as many equal strata.
+std::vector<std::size_t> chooseTexels(const std::vector<std::size_t>& texels, int count,
+                                      std::uint64_t seed) {
+    const std::size_t available = texels.size();
     const std::size_t n = count > 0 ? std::min<std::size_t>(count, available) : available;
     std::vector<std::size_t> chosen(n);
     RandomStream random(seed, 0x7e8e1);
     for (std::size_t i = 0; i < n; ++i) {
         const std::size_t begin = i * available / n, end = (i + 1) * available / n;
-        chosen[i] =
-            begin + static_cast<std::size_t>(random.next() * static_cast<float>(end - begin));
+        chosen[i] = texels[begin + static_cast<std::size_t>(random.next() *
+                                                            static_cast<float>(end - begin))];
     }
     return chosen;
 }
@@ -130,7 +143,8 @@ void runIrradianceReference(const IrradianceOptions& options, const Globals& glo
     const Unwrap unwrap = restoreUnwrap(room.scene, rays, field.charts, field.triangleCharts,
                                         {field.atlas.width, field.atlas.height});
     const Selection s =
-        select(room, unwrap, chooseTexels(unwrap.texels.size(), options.texels, globals.seed));
+        select(room, unwrap,
+               chooseTexels(scatteringTexels(room.scene, unwrap), options.texels, globals.seed));
     const std::vector<TexelArea> areas(s.points.begin(), s.points.end());
     const auto isOpen = [&](std::uint32_t triangle, bool front) {
         const TriangleCharts& c = field.triangleCharts[triangle];
