@@ -119,7 +119,7 @@ BakeParams presetParams(const std::string& name) {
         p.cells = 512;
         p.texelBudget = 150000;
         p.directSamples = 32;
-        p.tolerance = 1e-3;
+        p.tolerance = 3e-4;
         p.coarseDirections = 513;
         p.settlingSweeps = 8;
         p.radianceCells = 512;

@@ -28,7 +28,7 @@ struct BakeParams {
     int coarseDirections = 129;  ///< of the sweeps before the last
     int coarseCells = 128;
     int maxBounces = 0;             ///< 0: until converged
-    double tolerance = 2e-3;        ///< of the light still missing, relative
+    double tolerance = 1e-3;        ///< of the light still missing, relative
     int settlingSweeps = 6;         ///< coarse ones after that, whose mean goes into the last
     int radianceDirections = 2049;  ///< of the radiance field of mirror charts; 0: none
     int radianceCells = 256;

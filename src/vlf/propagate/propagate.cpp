@@ -105,37 +105,29 @@ void topUp(const BakeState& state, const TexelBuffer& radiance, TexelBuffer& gat
     });
 }
 
-/// E = E_direct + E_indirect. Texels no ray met keep what they had.
-void deposit(BakeState& state, const TexelBuffer& gathered, const std::vector<Vec3>& indirect) {
+/// E = E_direct + π ΣL / n. Texels no ray met keep what they had.
+void deposit(BakeState& state, const TexelBuffer& gathered) {
     const auto& texels = state.unwrap.texels;
     for (std::size_t i = 0; i < texels.size(); ++i) {
-        if (gathered.weight(texels[i]) <= 0) continue;
+        const float samples = gathered.weight(texels[i]);
+        if (samples <= 0) continue;
         state.reached[i] = 1;
-        state.irradiance[i] = state.directIrradiance[i] + indirect[i];
+        state.irradiance[i] = state.directIrradiance[i] + kPi * gathered.rgb(texels[i]) / samples;
     }
-}
-
-/// π ΣL / n at each of the texels.
-std::vector<Vec3> indirectIrradiance(const Unwrap& unwrap, const TexelBuffer& gathered) {
-    std::vector<Vec3> indirect(unwrap.texels.size(), Vec3(0));
-    for (std::size_t i = 0; i < indirect.size(); ++i)
-        if (const float samples = gathered.weight(unwrap.texels[i]); samples > 0)
-            indirect[i] = kPi * gathered.rgb(unwrap.texels[i]) / samples;
-    return indirect;
 }
 
 }  // namespace
 
 void propagateOnce(BakeState& state, int directions, int cells, int rotation, Progress& progress) {
-    const bool last = rotation < 0;
     const TexelBuffer radiance = emit(state);
-    const std::vector<TexelBuffer> parts =
+    std::vector<TexelBuffer> parts =
         sweep(state, DirectionSet(directions), cells, rotation, radiance, progress);
     TexelBuffer gathered = sumInOrder(parts);
-    if (last) topUp(state, radiance, gathered);
-    deposit(state, gathered,
-            last ? smoothIndirect(state.unwrap, parts, gathered)
-                 : indirectIrradiance(state.unwrap, gathered));
+    if (rotation < 0) {
+        topUp(state, radiance, gathered);
+        smoothIndirect(state.unwrap, parts, gathered);
+    }
+    deposit(state, gathered);
     ++state.report.sweeps;
 }
 

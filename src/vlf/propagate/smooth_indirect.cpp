@@ -10,13 +10,11 @@ namespace vlf {
 namespace {
 
 constexpr std::size_t kBlock = 1024;
+constexpr std::array<int, 2> kStrides{1, 2};  // texels to the neighbours, pass by pass
+constexpr int kMinParts = 4;                  // that a variance is reckoned from
 
 // Squared differences above so many times the noise's variance are no noise: nothing is moved.
-constexpr float kCertain = 9;
-
-// Of the step, σ being the noise of a texel: the best share of it is (σ² - cov) / (β² + variance),
-// β its part that is no noise. With the kernel below cov = σ²/4 and variance = 0.64 σ².
-constexpr float kGain = 0.75f / 0.64f;
+constexpr float kCertain = 16;
 
 /// Two texels on opposite sides of one, so that a gradient cancels; weight of each beside the
 /// middle one's 4 (a binomial kernel).
@@ -27,8 +25,12 @@ struct Pair {
 constexpr std::array<Pair, 4> kPairs{{{1, 0, 2}, {0, 1, 2}, {1, 1, 1}, {1, -1, 1}}};
 constexpr float kMiddle = 4;
 
-/// What smoothing would do to a texel: the step to the neighbours' mean, and the variance of that
-/// step through noise.
+// Of the step, σ being the noise of a texel: the best share of it is (σ² - cov) / (β² + variance),
+// β its part that is no noise. With this kernel cov = σ²/4 and variance = 0.64 σ².
+constexpr float kGain = 0.75f / 0.64f;
+
+/// What smoothing would do to a texel: the step of its mean radiance to the neighbourhood's, and
+/// the variance of that step through noise.
 struct Step {
     Vec3 value{0};
     float variance = 0;
@@ -36,94 +38,107 @@ struct Step {
     float squared() const { return glm::dot(value, value); }
 };
 
+/// One pass, with neighbours at one distance.
 class Smoother {
   public:
-    Smoother(const Unwrap& unwrap, const std::vector<TexelBuffer>& parts,
-             const TexelBuffer& gathered)
-        : unwrap_(unwrap), parts_(parts), gathered_(gathered), isTexel_(unwrap.atlasSize(), 0) {
-        for (const std::uint32_t t : unwrap.texels) isTexel_[t] = 1;
-    }
+    Smoother(const Unwrap& unwrap, const std::vector<std::uint32_t>& chartOf, int stride)
+        : pitch_(unwrap.atlasWidth), chartOf_(chartOf), stride_(stride) {}
 
-    Step step(std::uint32_t texel) const {
-        if (gathered_.weight(texel) <= 0) return {};
-        Step step{difference(gathered_, texel), 0};
+    Step step(const std::vector<TexelBuffer>& parts, const TexelBuffer& gathered,
+              std::uint32_t texel) const {
+        if (gathered.weight(texel) <= 0) return {};
         Vec3 sum(0);
-        float squares = 0, count = 0;
-        for (const TexelBuffer& part : parts_) {
+        float squares = 0;
+        int count = 0;
+        for (const TexelBuffer& part : parts) {
             if (part.weight(texel) <= 0) continue;
             const Vec3 d = difference(part, texel);
             sum += d;
             squares += glm::dot(d, d);
-            count += 1;
+            ++count;
         }
-        if (count < 4) return {};
-        step.variance =
-            std::max(0.0f, squares - glm::dot(sum, sum) / count) / (count * (count - 1));
-        return step;
+        if (count < kMinParts) return {};
+        const auto n = static_cast<float>(count);
+        const float spread = std::max(0.0f, squares - glm::dot(sum, sum) / n);
+        return {difference(gathered, texel), spread / (n * (n - 1))};
     }
 
-    /// Calls visit(neighbour) for the texel's neighbours in its chart.
-    template <class Visit>
-    void forNeighbours(std::uint32_t texel, Visit visit) const {
+    /// The share of its step that a texel is to take.
+    float share(const std::vector<Step>& steps, std::uint32_t texel) const {
+        const Step& own = steps[texel];
+        float squared = own.squared(), variance = own.variance, count = 1;
         for (const Pair& p : kPairs)
-            for (const std::int64_t sign : {1, -1}) {
-                const std::uint32_t n = neighbour(texel, p, sign);
-                if (isTexel_[n]) visit(n);
-            }
+            for (const int sign : {1, -1})
+                if (const std::uint32_t n = neighbour(texel, p, sign); n != kNone) {
+                    squared += steps[n].squared();
+                    variance += steps[n].variance;
+                    count += 1;
+                }
+        if (own.squared() * count > kCertain * variance || squared <= 0) return 0;
+        return std::min(1.0f, kGain * variance / squared);
     }
 
-  private:
-    // The gutter keeps all neighbours within the atlas, and other charts' texels away.
-    std::uint32_t neighbour(std::uint32_t texel, const Pair& p, std::int64_t sign) const {
-        return static_cast<std::uint32_t>(
-            texel + sign * (p.dx + p.dy * static_cast<std::int64_t>(unwrap_.atlasWidth)));
-    }
-
-    /// Irradiance of the samples of the texel and its neighbours less its own.
+    /// Mean radiance of the samples of the texel and its neighbours less that of its own.
     Vec3 difference(const TexelBuffer& buffer, std::uint32_t texel) const {
         Vec3 sum = kMiddle * buffer.rgb(texel);
         float samples = kMiddle * buffer.weight(texel);
         for (const Pair& p : kPairs) {
             const std::uint32_t a = neighbour(texel, p, 1), b = neighbour(texel, p, -1);
-            if (!isTexel_[a] || !isTexel_[b]) continue;
+            if (a == kNone || b == kNone) continue;
             sum += p.weight * (buffer.rgb(a) + buffer.rgb(b));
             samples += p.weight * (buffer.weight(a) + buffer.weight(b));
         }
-        return kPi * (sum / samples - buffer.rgb(texel) / buffer.weight(texel));
+        return sum / samples - buffer.rgb(texel) / buffer.weight(texel);
     }
 
-    const Unwrap& unwrap_;
-    const std::vector<TexelBuffer>& parts_;
-    const TexelBuffer& gathered_;
-    std::vector<std::uint8_t> isTexel_;
+  private:
+    static constexpr std::uint32_t kNone = 0xffffffffu;
+
+    /// The neighbour, if the chart reaches there without a gap.
+    std::uint32_t neighbour(std::uint32_t texel, const Pair& p, int sign) const {
+        const std::int64_t step = sign * (p.dx + p.dy * pitch_);
+        std::int64_t n = texel;
+        for (int i = 0; i < stride_; ++i) {
+            n += step;
+            if (chartOf_[static_cast<std::size_t>(n)] != chartOf_[texel]) return kNone;
+        }
+        return static_cast<std::uint32_t>(n);
+    }
+
+    std::int64_t pitch_;
+    const std::vector<std::uint32_t>& chartOf_;
+    int stride_;
 };
+
+/// Adds what a texel's samples change by if their mean does by `change`.
+void add(TexelBuffer& buffer, std::uint32_t texel, const Vec3& change) {
+    buffer.add(texel, buffer.weight(texel) * change, 0);
+}
 
 }  // namespace
 
-std::vector<Vec3> smoothIndirect(const Unwrap& unwrap, const std::vector<TexelBuffer>& parts,
-                                 const TexelBuffer& gathered) {
-    const Smoother smoother(unwrap, parts, gathered);
-    const std::size_t texels = unwrap.texels.size();
+void smoothIndirect(const Unwrap& unwrap, std::vector<TexelBuffer>& parts, TexelBuffer& gathered) {
+    const std::vector<std::uint32_t>& texels = unwrap.texels;
+    std::vector<std::uint32_t> chartOf(unwrap.atlasSize(), kNoChart);
+    for (std::size_t i = 0; i < texels.size(); ++i) chartOf[texels[i]] = unwrap.texelChart[i];
     std::vector<Step> steps(unwrap.atlasSize());
-    parallelFor(texels, kBlock,
-                [&](std::size_t i) { steps[unwrap.texels[i]] = smoother.step(unwrap.texels[i]); });
-    std::vector<Vec3> irradiance(texels, Vec3(0));
-    parallelFor(texels, kBlock, [&](std::size_t i) {
-        const std::uint32_t texel = unwrap.texels[i];
-        const float samples = gathered.weight(texel);
-        if (samples <= 0) return;
-        irradiance[i] = kPi * gathered.rgb(texel) / samples;
-        const Step& own = steps[texel];
-        float squared = own.squared(), variance = own.variance, count = 1;
-        smoother.forNeighbours(texel, [&](std::uint32_t n) {
-            squared += steps[n].squared();
-            variance += steps[n].variance;
-            count += 1;
+    std::vector<float> shares(texels.size());
+    for (const int stride : kStrides) {
+        const Smoother smoother(unwrap, chartOf, stride);
+        parallelFor(texels.size(), kBlock, [&](std::size_t i) {
+            steps[texels[i]] = smoother.step(parts, gathered, texels[i]);
         });
-        if (own.squared() * count > kCertain * variance) return;
-        irradiance[i] += std::min(1.0f, kGain * variance / std::max(squared, 1e-30f)) * own.value;
-    });
-    return irradiance;
+        parallelFor(texels.size(), kBlock,
+                    [&](std::size_t i) { shares[i] = smoother.share(steps, texels[i]); });
+        parallelFor(parts.size(), [&](std::size_t part) {
+            const TexelBuffer before = parts[part];
+            for (std::size_t i = 0; i < texels.size(); ++i)
+                if (shares[i] > 0 && before.weight(texels[i]) > 0)
+                    add(parts[part], texels[i], shares[i] * smoother.difference(before, texels[i]));
+        });
+        for (std::size_t i = 0; i < texels.size(); ++i)
+            if (shares[i] > 0) add(gathered, texels[i], shares[i] * steps[texels[i]].value);
+    }
 }
 
 }  // namespace vlf

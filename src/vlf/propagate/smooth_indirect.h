@@ -8,12 +8,11 @@
 
 namespace vlf {
 
-/// Indirect irradiance π ΣL / n (W·m⁻²) at each of unwrap.texels, moved towards the mean with its
-/// neighbours in the chart as far as the difference is noise (a Wiener filter). How large noise is
-/// tells the spread of the same difference among `parts`, independent sets of directions;
-/// `gathered` holds all samples. Where light truly differs from texel to texel nothing is changed;
-/// 0 where no ray has been.
-std::vector<Vec3> smoothIndirect(const Unwrap& unwrap, const std::vector<TexelBuffer>& parts,
-                                 const TexelBuffer& gathered);
+/// Moves the radiance that unwrap.texels have gathered towards the mean with their neighbours in
+/// the chart, as far as the difference is noise (a Wiener filter), first of neighbours next to them
+/// and then of those one further. How large noise is tells the spread of the same difference among
+/// `parts`, independent sets of directions; `gathered` holds all samples. Both are changed alike,
+/// their numbers of samples stay. Where light truly differs from texel to texel nothing is changed.
+void smoothIndirect(const Unwrap& unwrap, std::vector<TexelBuffer>& parts, TexelBuffer& gathered);
 
 }  // namespace vlf
