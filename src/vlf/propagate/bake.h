@@ -73,6 +73,7 @@ struct BakeState {
     std::vector<Vec3> directIrradiance;  ///< W·m⁻²
     std::vector<Vec3> irradiance;        ///< W·m⁻²: direct and all bounces so far
     std::vector<std::uint8_t> reached;   ///< whether any ray has met the texel
+    std::vector<TexelBuffer> parts;      ///< what the last sweep gathered, by sets of directions
     BakeReport report;
 };
 

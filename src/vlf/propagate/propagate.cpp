@@ -52,10 +52,11 @@ TexelBuffer emit(const BakeState& state) {
     return radiance;
 }
 
-/// Sweeps every bundle and gathers what the texels see, in kAccumulators parts.
-std::vector<TexelBuffer> sweep(BakeState& state, const DirectionSet& directions, int cells,
-                               int rotation, const TexelBuffer& radiance, Progress& progress) {
-    std::vector<TexelBuffer> gathered(kAccumulators, TexelBuffer(state.unwrap.atlasSize()));
+/// Sweeps every bundle and gathers what the texels see, in the kAccumulators parts of the state.
+void sweep(BakeState& state, const DirectionSet& directions, int cells, int rotation,
+           const TexelBuffer& radiance, Progress& progress) {
+    std::vector<TexelBuffer>& gathered = state.parts;
+    gathered.resize(kAccumulators);
     std::vector<std::uint64_t> exchanges(kAccumulators, 0);
     const std::uint64_t seed =
         mixBits(state.params.seed) + static_cast<std::uint64_t>(rotation + 1);
@@ -65,6 +66,7 @@ std::vector<TexelBuffer> sweep(BakeState& state, const DirectionSet& directions,
     const auto lines = static_cast<std::size_t>(directions.lineCount());
     ProgressCounter done(progress, lines);
     parallelFor(kAccumulators, [&](std::size_t a) {
+        gathered[a].reset(state.unwrap.atlasSize());
         SweepScratch scratch;
         RayGatherer mirrors(state.scene, state.rays, state.unwrap, state.sources);
         std::vector<MirrorSight> sights;
@@ -85,7 +87,6 @@ std::vector<TexelBuffer> sweep(BakeState& state, const DirectionSet& directions,
         bent.putBack(gathered[a]);
     });
     for (const std::uint64_t n : exchanges) state.report.exchanges += n;
-    return gathered;
 }
 
 /// Texels that fewer rays of the bundles met, small ones and those at the ends of charts, gather
@@ -120,12 +121,11 @@ void deposit(BakeState& state, const TexelBuffer& gathered) {
 
 void propagateOnce(BakeState& state, int directions, int cells, int rotation, Progress& progress) {
     const TexelBuffer radiance = emit(state);
-    std::vector<TexelBuffer> parts =
-        sweep(state, DirectionSet(directions), cells, rotation, radiance, progress);
-    TexelBuffer gathered = sumInOrder(parts);
+    sweep(state, DirectionSet(directions), cells, rotation, radiance, progress);
+    TexelBuffer gathered = sumInOrder(state.parts);
     if (rotation < 0) {
         topUp(state, radiance, gathered);
-        smoothIndirect(state.unwrap, parts, gathered);
+        smoothIndirect(state.unwrap, state.parts, gathered);
     }
     deposit(state, gathered);
     ++state.report.sweeps;

@@ -3,7 +3,6 @@
 
 #include "vlf/math/vector.h"
 
-#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -33,7 +32,8 @@ class TexelBuffer {
         values_[4 * i] += rgb.x, values_[4 * i + 1] += rgb.y, values_[4 * i + 2] += rgb.z;
         values_[4 * i + 3] += weight;
     }
-    void clear() { std::fill(values_.begin(), values_.end(), 0.0f); }
+    /// All zero, of this size; memory it has is kept.
+    void reset(std::size_t texelCount) { values_.assign(4 * (texelCount + 1), 0.0f); }
 
   private:
     std::vector<float> values_;

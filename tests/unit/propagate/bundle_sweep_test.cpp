@@ -41,7 +41,7 @@ TEST(BundleSweep, FacingSquaresExchangeBothWays) {
     s.setRadiance(0, {1, 2, 3});
     s.setRadiance(2, {4, 5, 6});
     for (const Vec3& direction : {kUp, -kUp}) {
-        s.gathered.clear();
+        s.gathered.reset(s.gathered.texelCount());
         const std::uint64_t exchanges = s.sweep(direction, 200);
         const auto lower = s.gatheredBy(0), upper = s.gatheredBy(2);
         EXPECT_EQ(lower.samples, static_cast<float>(exchanges));
@@ -69,7 +69,7 @@ TEST(BundleSweep, SamplesAreInProportionToTheCosine) {
     SweptScene s(squares({{0, true}}), kTexel);
     s.sweep(kUp, 1000);
     const float straight = s.gatheredBy(0).samples;
-    s.gathered.clear();
+    s.gathered.reset(s.gathered.texelCount());
     s.sweep(glm::normalize(Vec3(1, 1, 0)), 1000);
     EXPECT_NEAR(s.gatheredBy(0).samples / straight, std::sqrt(0.5), 0.003);
 }
@@ -130,7 +130,7 @@ TEST(BundleSweep, ReusedScratchGivesTheSame) {
     SweptScene fresh(scene, 0.05f), reused(scene, 0.05f);
     reused.sweep({1, 0, 0}, 333);
     reused.sweep({0, 0, 1}, 64);
-    reused.gathered.clear();
+    reused.gathered.reset(reused.gathered.texelCount());
     const Vec3 direction = glm::normalize(Vec3(1, 2, 3));
     EXPECT_EQ(fresh.sweep(direction, 128), reused.sweep(direction, 128));
     for (std::size_t i = 0; i <= fresh.outside(); ++i)

@@ -27,7 +27,7 @@ struct Swept {
 
 Swept sweepMany(SweptScene& s, const std::string& instructionSet) {
     useInstructionSet(instructionSet);
-    s.gathered.clear();
+    s.gathered.reset(s.gathered.texelCount());
     Swept result;
     for (int i = 0; i < 40; ++i) {
         RandomStream random(11, i);
