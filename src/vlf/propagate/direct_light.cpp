@@ -4,6 +4,7 @@
 #include "vlf/math/form_factor.h"
 #include "vlf/math/random.h"
 #include "vlf/math/sampling.h"
+#include "vlf/propagate/direct_refinement.h"
 
 #include <algorithm>
 #include <array>
@@ -21,18 +22,6 @@ constexpr float kLittle = 0.01f;   // share of the likely effect of all lights
 constexpr float kGrazing = 1e-5f;  // cosine: a point in a light's own plane gets nothing from it
 constexpr float kSlack = 0.01f;    // texels
 constexpr std::size_t kTexelsPerBlock = 64;
-
-// Later passes go over texels in or beside a penumbra or close to a light: towards a standard error
-// of kTarget / √samples (relative to the texel's light and the room's; less where it is brighter
-// than the mean, so that no texel has more than its share of the whole error), by at least
-// kRefinement times the samples of the first pass and no more than the pass allows.
-constexpr float kTarget = 0.065f, kRefineAbove = 0.004f;
-constexpr int kRefinement = 6;
-constexpr std::array<int, 2> kMaxRefinement{48, 1024};
-constexpr float kWorthwhile = 0.25f;  // fewer more samples than this share do not matter
-constexpr float kBright = 8;          // times the mean
-constexpr float kRoomShare = 0.3f;
-constexpr float kShadowEdge = 0.25f;  // relative step between neighbours that counts as an edge
 
 struct LightSample {
     Vec3 point, normal;  // world
@@ -67,28 +56,6 @@ struct Receiver {
     bool planar = true;  // else normals vary so much that the mean says little
     float side = 1;      // -1 where the texels face against the winding normal
     std::uint64_t key = 0;
-};
-
-/// An estimate of irradiance, W·m⁻².
-struct DirectEstimate {
-    Vec3 value{0};
-    float variance = 0;    ///< of the luminance
-    float unoccluded = 0;  ///< about the luminance if nothing stood in the way
-    int samples = 0;
-
-    void add(const DirectEstimate& other, float scale) {
-        value += scale * other.value;
-        variance += scale * scale * other.variance;
-    }
-
-    /// Takes an independent estimate of the same texel in.
-    void merge(const DirectEstimate& other) {
-        const auto all = static_cast<float>(samples + other.samples);
-        const float own = static_cast<float>(samples) / all;
-        value = own * value + (1 - own) * other.value;
-        variance = own * own * variance + (1 - own) * (1 - own) * other.variance;
-        samples += other.samples;
-    }
 };
 
 /// Estimates the texels' direct light.
@@ -388,79 +355,6 @@ void forEachTexel(std::size_t texels, const DirectGatherer& prototype, ProgressC
     });
 }
 
-/// Which texels lie in or beside a penumbra, at a shadow's edge or close to a light.
-class PenumbraFinder {
-  public:
-    PenumbraFinder(const Unwrap& unwrap, const std::vector<DirectEstimate>& estimates, int samples)
-        : unwrap_(unwrap),
-          estimates_(estimates),
-          target_(kTarget / std::sqrt(static_cast<float>(samples))),
-          entryOf_(unwrap.atlasSize(), kNone) {
-        double sum = 0;
-        for (std::size_t i = 0; i < estimates.size(); ++i) {
-            entryOf_[unwrap.texels[i]] = static_cast<std::uint32_t>(i);
-            sum += luminance(estimates[i].value);
-        }
-        mean_ = static_cast<float>(sum / static_cast<double>(estimates.size()));
-    }
-
-    /// How many samples the texel should have by the first refinement, which looks at its
-    /// neighbours too: edges reach into them.
-    float wantedAfterFirst(std::size_t i) const {
-        const auto texel = static_cast<std::int64_t>(unwrap_.texels[i]);
-        const auto pitch = static_cast<std::int64_t>(unwrap_.atlasWidth);
-        const float own = luminance(estimates_[i].value);
-        bool edge = false;
-        float wanted = this->wanted(i, own);
-        // The gutter keeps all neighbours within the atlas.
-        for (std::int64_t dy = -1; dy <= 1; ++dy)
-            for (std::int64_t dx = -1; dx <= 1; ++dx) {
-                const std::uint32_t n = entryOf_[texel + dy * pitch + dx];
-                if (n == kNone) continue;
-                const float brighter = std::max(own, luminance(estimates_[n].value));
-                wanted = std::max(wanted, this->wanted(n, brighter));
-                edge = edge || std::abs(luminance(estimates_[n].value) - own) >
-                                   kShadowEdge * (brighter + kRoomShare * mean_);
-            }
-        return edge ? std::max(wanted, 1.0f) : wanted;
-    }
-
-    /// The same by what is known of the texel itself.
-    float wanted(std::size_t i) const { return wanted(i, luminance(estimates_[i].value)); }
-
-  private:
-    static constexpr std::uint32_t kNone = 0xffffffffu;
-
-    /// Samples for the error of entry i beside light of the given luminance.
-    float wanted(std::size_t i, float luminance) const {
-        const DirectEstimate& e = estimates_[i];
-        const float light = luminance + kRoomShare * mean_;
-        // What one more sample might change where all so far agree.
-        const float unknown = e.unoccluded / static_cast<float>(e.samples + 1);
-        const float risk = unknown > kBright * light ? unknown : 0;
-        const float error = std::max(std::sqrt(e.variance), risk) / light;
-        if (error < kRefineAbove) return 0;
-        const float target = target_ / std::sqrt(std::max(1.0f, light / (kBright * mean_)));
-        return static_cast<float>(e.samples) * error * error / (target * target);
-    }
-
-    const Unwrap& unwrap_;
-    const std::vector<DirectEstimate>& estimates_;
-    float target_;                        // relative standard error of a texel like the mean
-    std::vector<std::uint32_t> entryOf_;  // per atlas texel
-    float mean_ = 0;                      // luminance over all texels
-};
-
-/// Samples to add to a texel that should have `wanted`, `most` being what the pass allows.
-int samplesToAdd(const DirectEstimate& estimate, float wanted, int first, int most) {
-    if (wanted <= 0) return 0;
-    const float missing = wanted - static_cast<float>(estimate.samples);
-    if (estimate.samples > first && missing < kWorthwhile * static_cast<float>(estimate.samples))
-        return 0;
-    const int least = estimate.samples == first ? kRefinement * first : 1;
-    return static_cast<int>(std::clamp<float>(missing, least, most));
-}
-
 }  // namespace
 
 std::vector<Vec3> directIrradiance(const Scene& scene, const RayScene& rays, const Unwrap& unwrap,
@@ -471,19 +365,17 @@ std::vector<Vec3> directIrradiance(const Scene& scene, const RayScene& rays, con
     if (sources.images.empty()) return irradiance;
     const DirectGatherer prototype(scene, rays, unwrap, sources, params);
     const std::size_t blocks = (texels + kTexelsPerBlock - 1) / kTexelsPerBlock;
-    ProgressCounter done(progress, (1 + kMaxRefinement.size()) * blocks);
+    ProgressCounter done(progress, (1 + kRefinementPasses) * blocks);
     std::vector<DirectEstimate> estimates(texels);
     forEachTexel(texels, prototype, done, [&](DirectGatherer& gatherer, std::size_t i) {
         estimates[i] = gatherer.irradiance(i, params.samples, 0);
     });
-    for (std::size_t pass = 0; pass < kMaxRefinement.size(); ++pass) {
+    for (int pass = 0; pass < kRefinementPasses; ++pass) {
         const std::vector<DirectEstimate> before = estimates;
-        const PenumbraFinder finder(unwrap, before, params.samples);
+        const DirectRefinement refinement(unwrap, before, params.samples, pass);
         forEachTexel(texels, prototype, done, [&](DirectGatherer& gatherer, std::size_t i) {
-            const float wanted = pass == 0 ? finder.wantedAfterFirst(i) : finder.wanted(i);
-            const int more = samplesToAdd(before[i], wanted, params.samples,
-                                          kMaxRefinement[pass] * params.samples);
-            if (more > 0) estimates[i].merge(gatherer.irradiance(i, more, pass + 1));
+            if (const int more = refinement.samplesToAdd(i); more > 0)
+                estimates[i].merge(gatherer.irradiance(i, more, 1 + pass));
         });
     }
     for (std::size_t i = 0; i < texels; ++i) irradiance[i] = estimates[i].value;
