@@ -263,6 +263,38 @@ TEST_F(ImportGltf, RejectsReferencesAndDataOutOfBounds) {
     expectError(broken([](auto& d) { d.node()["scale"] = {1e300, 1, 1}; }), "not finite");
 }
 
+TEST_F(ImportGltf, NamesTheBufferThatIsAtFault) {
+    const auto errorOfBuffers = [&](const json& buffers) {
+        json root = Document().root;
+        root["buffers"] = buffers;
+        return ImportTest::errorOf(write("a.gltf", root.dump()));
+    };
+    const json good = {{"byteLength", 4}, {"uri", "data:application/octet-stream;base64,AAAA"}};
+    EXPECT_NE(errorOfBuffers({good, {{"uri", "a.bin"}}}).find("buffers[1]: byteLength"),
+              std::string::npos);
+    EXPECT_NE(errorOfBuffers({good, {{"byteLength", 0}}}).find("buffers[1]: byteLength"),
+              std::string::npos);
+    EXPECT_NE(errorOfBuffers({{{"byteLength", 4}}}).find("buffers[0]: has neither"),
+              std::string::npos);
+}
+
+TEST_F(ImportGltf, RefusesABinaryChunkThatIsSmallerThanItsBuffer) {
+    std::string glb = Document().glb();
+    const std::string announced = "\"byteLength\":60";
+    const std::size_t place = glb.find("\"buffers\":[{" + announced);
+    ASSERT_NE(place, std::string::npos);
+    glb.replace(place + 12 + announced.size() - 2, 2, "99");
+    EXPECT_NE(ImportTest::errorOf(write("a.glb", glb))
+                  .find("buffers[0]: announces 99 bytes, but the binary chunk has 60"),
+              std::string::npos);
+}
+
+TEST_F(ImportGltf, NamesThePrimitiveWhoseIndicesAreMissing) {
+    Document document;
+    document.primitive()["indices"] = 7;
+    expectError(document, "meshes[0].primitives[0].indices: accessors[7] does not exist");
+}
+
 TEST_F(ImportGltf, RejectsPositionsThatAreNotFinite) {
     Document document;
     const float nan = std::numeric_limits<float>::quiet_NaN();

@@ -75,7 +75,7 @@ void parse(GltfFile& file, const std::vector<std::uint8_t>& bytes, const std::st
 GltfFile readGltf(const std::string& path, ImportReport& report) {
     GltfFile file{path, {}};
     const std::vector<std::uint8_t> bytes = readFileBytes(path);
-    const std::string advice = checkGltfJson(path, gltfJson(path, bytes), report);
+    const std::string advice = checkGltfJson(path, gltfChunks(path, bytes), report);
     parse(file, bytes, advice, report);
     return file;
 }

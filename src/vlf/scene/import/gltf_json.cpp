@@ -88,6 +88,13 @@ void checkElement(const std::string& path, const json& value, const std::string&
     }
 }
 
+/// A collection whose type has been checked; empty if it is not there.
+const json& elements(const json& parent, const char* collection) {
+    static const json kNone = json::array();
+    const auto found = parent.find(collection);
+    return found == parent.end() ? kNone : *found;
+}
+
 void checkCollection(const std::string& path, const json& parent, const std::string& name,
                      const std::string& prefix) {
     const auto found = parent.find(name);
@@ -101,9 +108,28 @@ void checkTypes(const std::string& path, const json& root) {
     for (const char* name : {"scenes", "nodes", "meshes", "cameras", "accessors", "bufferViews",
                              "buffers", "materials", "textures", "images", "samplers"})
         checkCollection(path, root, name, "");
-    if (!root.contains("meshes")) return;
-    for (std::size_t i = 0; i < root["meshes"].size(); ++i)
-        checkCollection(path, root["meshes"][i], "primitives", fmt::format("meshes[{}].", i));
+    const json& meshes = elements(root, "meshes");
+    for (std::size_t i = 0; i < meshes.size(); ++i)
+        checkCollection(path, meshes[i], "primitives", fmt::format("meshes[{}].", i));
+}
+
+void checkIndices(const std::string& path, const json& primitive, std::size_t accessors,
+                  const std::string& element) {
+    const auto found = primitive.find("indices");
+    if (found != primitive.end() && !(*found >= 0 && *found < accessors))
+        throw InputError({path, 0, element + ".indices"},
+                         fmt::format("accessors[{}] does not exist", found->dump()));
+}
+
+void checkAllIndices(const std::string& path, const json& root) {
+    const std::size_t accessors = elements(root, "accessors").size();
+    const json& meshes = elements(root, "meshes");
+    for (std::size_t m = 0; m < meshes.size(); ++m) {
+        const json& primitives = elements(meshes[m], "primitives");
+        for (std::size_t p = 0; p < primitives.size(); ++p)
+            checkIndices(path, primitives[p], accessors,
+                         fmt::format("meshes[{}].primitives[{}]", m, p));
+    }
 }
 
 void checkVersion(const std::string& path, const json& root) {
@@ -143,6 +169,25 @@ std::string checkExtensions(const std::string& path, const json& root, ImportRep
     return advice;
 }
 
+void checkBuffer(const SourceLocation& where, const json& buffer, bool mayBeBinaryChunk,
+                 std::size_t binaryBytes) {
+    const json length = buffer.value("byteLength", json());
+    if (!length.is_number() || length <= 0)
+        throw InputError(where, "byteLength must be a number above 0");
+    if (buffer.contains("uri")) return;
+    if (!mayBeBinaryChunk || binaryBytes == 0)
+        throw InputError(where, "has neither a uri nor the binary chunk of a GLB file");
+    if (length > binaryBytes)
+        throw InputError(where, fmt::format("announces {} bytes, but the binary chunk has {}",
+                                            length.dump(), binaryBytes));
+}
+
+void checkBuffers(const std::string& path, const json& root, std::size_t binaryBytes) {
+    const json& buffers = elements(root, "buffers");
+    for (std::size_t i = 0; i < buffers.size(); ++i)
+        checkBuffer({path, 0, fmt::format("buffers[{}]", i)}, buffers[i], i == 0, binaryBytes);
+}
+
 void checkSize(const std::string& path, std::string_view text) {
     if (text.size() > kMaxJsonBytes)
         throw InputError({path, 0, ""}, "more than 1 GiB of JSON; keep the buffers in a .bin file");
@@ -169,8 +214,8 @@ std::uint64_t read32(const std::vector<std::uint8_t>& bytes, std::size_t offset)
     return value;
 }
 
-/// The JSON chunk of a GLB file whose chunks all lie inside it.
-std::string_view glbJson(const std::string& path, const std::vector<std::uint8_t>& bytes) {
+/// The chunks of a GLB file, which all lie inside it.
+GltfChunks glbChunks(const std::string& path, const std::vector<std::uint8_t>& bytes) {
     const auto fail = [&](const std::string& message) { throw InputError({path, 0, ""}, message); };
     if (bytes.size() < 20) fail("truncated GLB header");
     if (read32(bytes, 4) != 2)
@@ -178,9 +223,10 @@ std::string_view glbJson(const std::string& path, const std::vector<std::uint8_t
     if (read32(bytes, 8) > bytes.size()) fail("truncated GLB file");
     const std::uint64_t jsonSize = read32(bytes, 12), jsonEnd = 20 + jsonSize;
     if (jsonEnd > bytes.size()) fail("truncated JSON chunk");
-    if (jsonEnd + 8 <= bytes.size() && jsonEnd + 8 + read32(bytes, jsonEnd) > bytes.size())
-        fail("truncated binary chunk");
-    return {reinterpret_cast<const char*>(bytes.data()) + 20, static_cast<std::size_t>(jsonSize)};
+    const std::uint64_t binarySize = jsonEnd + 8 <= bytes.size() ? read32(bytes, jsonEnd) : 0;
+    if (binarySize > 0 && jsonEnd + 8 + binarySize > bytes.size()) fail("truncated binary chunk");
+    return {{reinterpret_cast<const char*>(bytes.data()) + 20, static_cast<std::size_t>(jsonSize)},
+            static_cast<std::size_t>(binarySize)};
 }
 
 }  // namespace
@@ -189,25 +235,28 @@ bool isGlb(const std::vector<std::uint8_t>& bytes) {
     return bytes.size() >= 4 && std::equal(bytes.begin(), bytes.begin() + 4, "glTF");
 }
 
-std::string_view gltfJson(const std::string& path, const std::vector<std::uint8_t>& bytes) {
-    const std::string_view text =
-        isGlb(bytes) ? glbJson(path, bytes)
-                     : std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    checkSize(path, text);
-    return text;
+GltfChunks gltfChunks(const std::string& path, const std::vector<std::uint8_t>& bytes) {
+    const GltfChunks chunks =
+        isGlb(bytes) ? glbChunks(path, bytes)
+                     : GltfChunks{{reinterpret_cast<const char*>(bytes.data()), bytes.size()}};
+    checkSize(path, chunks.json);
+    return chunks;
 }
 
-std::string checkGltfJson(const std::string& path, std::string_view text, ImportReport& report) {
+std::string checkGltfJson(const std::string& path, const GltfChunks& chunks, ImportReport& report) {
     json root;
     try {
-        root = json::parse(text);
+        root = json::parse(chunks.json);
     } catch (const json::exception& error) {
         throw InputError({path, 0, ""}, fmt::format("not a glTF file: {}", error.what()));
     }
     if (!root.is_object()) throw InputError({path, 0, ""}, "not a glTF file: no JSON object");
     checkVersion(path, root);
     checkTypes(path, root);
-    return checkExtensions(path, root, report);
+    std::string advice = checkExtensions(path, root, report);
+    checkBuffers(path, root, chunks.binaryBytes);
+    checkAllIndices(path, root);
+    return advice;
 }
 
 }  // namespace vlf
