@@ -1,6 +1,7 @@
 #include "vlf/scene/scene.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace vlf {
 
@@ -103,9 +104,15 @@ void append(Scene& scene, const Scene& other) {
 
 Camera defaultCamera(const Scene& scene) {
     const Bounds bounds = boundsOf(scene);
-    const Vec3 centre = bounds.centre(), half = 0.5f * bounds.size();
-    return {"default", centre + 0.92f * half * Vec3(0.9f, 0.45f, 0.95f),
-            centre - Vec3(0, 0.15f * half.y, 0), {0, 1, 0}, 65};
+    const Vec3 centre = bounds.centre();
+    // Far from the origin floats are too coarse to tell eye and look of a small scene apart.
+    const Vec3 coarse = 16 * std::numeric_limits<float>::epsilon() * glm::abs(centre);
+    const Vec3 half = glm::max(0.5f * bounds.size(), coarse);
+    return {"default",
+            centre + 0.92f * half * Vec3(0.9f, 0.45f, 0.95f),
+            centre - Vec3(0, 0.15f * half.y, 0),
+            {0, 1, 0},
+            65};
 }
 
 }  // namespace vlf
