@@ -238,13 +238,25 @@ TEST(Still, RefusesWhatItCannotShow) {
     EXPECT_THROW(render(mixedUp, 8, 8), InputError);
 }
 
-TEST(Still, CancellingStops) {
+TEST(Still, CancellingStopsInEveryMode) {
     const BakedScene room = evenlyLit(smallCornell(), Vec3(1));
+    StillParams params = stillParams(room.scene.cameras.front(), 64, 64);
     Progress progress;
     progress.cancel();
-    EXPECT_THROW(renderStill(room.scene, room.rays, room.field,
-                             stillParams(room.scene.cameras.front(), 64, 64), progress),
-                 Cancelled);
+    const auto expectStop = [&] {
+        EXPECT_THROW(renderStill(room.scene, room.rays, room.field, params, progress), Cancelled);
+    };
+    for (const DisplayMode mode :
+         {DisplayMode::raytraced, DisplayMode::field, DisplayMode::wireframe}) {
+        params.mode = mode;
+        expectStop();
+    }
+    params.mode = DisplayMode::diagram;
+    for (const DiagramKind kind :
+         {DiagramKind::directions, DiagramKind::subfield, DiagramKind::tile, DiagramKind::chart}) {
+        params.diagram.kind = kind;
+        expectStop();
+    }
 }
 
 }  // namespace

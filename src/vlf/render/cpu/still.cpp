@@ -52,6 +52,7 @@ Image renderStill(const Scene& scene, const RayScene& rays, const LightField& fi
     std::uint64_t traced = 0;
     progress.stage("rendering");
     Image image = render(scene, rays, field, params, progress, traced);
+    progress.check();
     if (report) *report = {std::chrono::duration<double>(Clock::now() - start).count(), traced};
     return image;
 }
