@@ -60,6 +60,10 @@ Scene readScene(const Options& options, const Globals& globals) {
     return scene;
 }
 
+std::uintmax_t fileBytes(const std::string& path) {
+    return std::filesystem::is_regular_file(path) ? std::filesystem::file_size(path) : 0;
+}
+
 double peakMebibytes() {
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
@@ -81,7 +85,7 @@ nlohmann::ordered_json toJson(const Options& options, const BakeReport& report,
             {"texelSize", record.texelSize},
             {"texels", report.texels},
             {"radianceElements", report.radianceElements},
-            {"fileBytes", std::filesystem::file_size(options.output)},
+            {"fileBytes", fileBytes(options.output)},
             {"exchanges", report.exchanges},
             {"bounces", report.sweeps},
             {"residual", report.residual},
@@ -97,8 +101,7 @@ nlohmann::ordered_json toJson(const Options& options, const BakeReport& report,
 
 void printReport(const Options& options, const BakeReport& report, double seconds) {
     fmt::print("{}: {} texels, {} radiance elements, {:.1f} MB\n", options.output, report.texels,
-               report.radianceElements,
-               static_cast<double>(std::filesystem::file_size(options.output)) / 1e6);
+               report.radianceElements, static_cast<double>(fileBytes(options.output)) / 1e6);
     for (const BakeReport::Stage& s : report.stages)
         fmt::print("  {:<16} {:7.2f} s  ({:.2f} s CPU)\n", s.name, s.seconds, s.cpuSeconds);
     const EnergyReport& e = report.energy;
@@ -111,7 +114,7 @@ void printReport(const Options& options, const BakeReport& report, double second
 }
 
 void run(const Options& options, const Globals& globals) {
-    for (const std::string& path : {options.output, options.json}) requireFolderOf(path);
+    requireWritableOutputs({options.output, options.json});
     if (!options.instructionSet.empty()) useInstructionSet(options.instructionSet);
     const auto start = std::chrono::steady_clock::now();
     const BakeParams params = bakeParams(options, globals);
@@ -124,6 +127,7 @@ void run(const Options& options, const Globals& globals) {
     {
         ConsoleProgress progress(globals.quiet);
         room.field = bake(room.scene, params, progress, &report);
+        progress.check();
         progress.stage("writing");
         room.field.record.programVersion = VLF_VERSION;
         room.field.record.sceneHash = sceneHash(room.scene);

@@ -57,11 +57,9 @@ void addPictureOptions(CLI::App& command, PictureOptions& options, bool orReport
         ->option_text("filmic|linear [filmic]");
 }
 
-void requireFolderOf(const std::string& path) {
-    const std::filesystem::path folder = std::filesystem::path(path).parent_path();
-    std::error_code ignored;
-    if (!folder.empty() && !std::filesystem::is_directory(folder, ignored))
-        throw FileError(path, "there is no folder '" + folder.string() + "'; create it first");
+void requireWritableOutputs(std::initializer_list<std::string> paths) {
+    for (const std::string& path : paths)
+        if (!path.empty()) requireWritable(path);
 }
 
 void writePicture(const PictureOptions& options, const Image& radiance,

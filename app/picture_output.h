@@ -4,6 +4,7 @@
 #include "vlf/image/image_io.h"
 #include "vlf/image/tone_map.h"
 
+#include <initializer_list>
 #include <string>
 #include <vector>
 
@@ -28,8 +29,9 @@ void addPictureOptions(CLI::App& command, PictureOptions& options, bool orReport
 /// Empty if the text is an exposure, else what is wrong with it (a CLI11 validator).
 std::string exposureProblem(const std::string& text);
 
-/// Throws FileError if the folder of `path` is missing: to be asked before long work.
-void requireFolderOf(const std::string& path);
+/// Throws FileError if one of the files cannot be written; an empty name is none. To be asked
+/// before long work.
+void requireWritableOutputs(std::initializer_list<std::string> paths);
 
 /// Writes radiance to the file the options name; `attributes` go into the header of an EXR.
 void writePicture(const PictureOptions& options, const Image& radiance,

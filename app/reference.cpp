@@ -106,8 +106,7 @@ void run(const Options& options, const Globals& globals) {
     }
     if (const std::string problem = pictureNameProblem(options.picture.path); !problem.empty())
         throw CLI::ValidationError("--output", problem);
-    for (const std::string& path : {options.picture.path, options.variance, options.json})
-        requireFolderOf(path);
+    requireWritableOutputs({options.picture.path, options.variance, options.json});
     const Scene scene = readScenes(options.scenes, globals);
     const PathTraceParams params = traceParams(options, globals, scene);
     PathTraceResult result;

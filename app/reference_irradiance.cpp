@@ -135,7 +135,7 @@ nlohmann::ordered_json toJson(const IrradianceOptions& options, const Irradiance
 }  // namespace
 
 void runIrradianceReference(const IrradianceOptions& options, const Globals& globals) {
-    requireFolderOf(options.output);
+    requireWritableOutputs({options.output});
     const BakedRoom room = readField(options.field);
     requireSameScene(options, room);
     const LightField& field = room.field;

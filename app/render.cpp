@@ -154,7 +154,7 @@ void renderAll(const Options& options, const Globals& globals, const BakedRoom& 
 void run(const Options& options, const Globals& globals) {
     if (options.allCameras && options.picture.path.find('%') == std::string::npos)
         throw CLI::ValidationError("-o", "needs a % for the cameras' names with --all-cameras");
-    for (const std::string& path : {options.picture.path, options.json}) requireFolderOf(path);
+    requireWritableOutputs({options.picture.path, options.json});
     const BakedRoom room = readField(options.field);
     std::vector<Still> stills = stillsToRender(options, room.scene);
     renderAll(options, globals, room, stills);

@@ -94,4 +94,18 @@ void writeFile(const std::string& path, std::span<const std::uint8_t> bytes) {
     }
 }
 
+void requireWritable(const std::string& path) {
+    const std::string target = linkTarget(path);
+    std::error_code ignored;
+    if (fs::is_directory(target, ignored)) throw FileError(path, "cannot write: it is a folder");
+    if (fs::exists(target, ignored) && !fs::is_regular_file(target, ignored)) return;
+    fs::path folder = fs::path(target).parent_path();
+    if (folder.empty()) folder = ".";
+    if (!fs::is_directory(folder, ignored))
+        throw FileError(path, "there is no folder '" + folder.string() + "'; create it first");
+    if (::access(folder.c_str(), W_OK | X_OK) != 0)
+        throw FileError(
+            path, "cannot create a file in '" + folder.string() + "': " + systemMessage(errno));
+}
+
 }  // namespace vlf

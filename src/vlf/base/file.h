@@ -16,4 +16,8 @@ std::vector<std::uint8_t> readFile(const std::string& path);
 /// device or pipe is written to directly.
 void writeFile(const std::string& path, std::span<const std::uint8_t> bytes);
 
+/// Throws FileError if writeFile could not but fail: `path` is a folder, or its own folder is
+/// missing or nothing may be created there. To be asked before long work.
+void requireWritable(const std::string& path);
+
 }  // namespace vlf

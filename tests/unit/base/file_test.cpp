@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 namespace vlf {
 namespace {
@@ -56,6 +57,22 @@ TEST_F(FileTest, SaysWhichFileCannotBeRead) {
 TEST_F(FileTest, FailsToWriteIntoAMissingFolder) {
     EXPECT_THROW(writeFile(path("missing/a"), newBytes_), FileError);
     EXPECT_EQ(fileCount(), 0);
+}
+
+TEST_F(FileTest, KnowsBeforehandWhatCannotBeWritten) {
+    EXPECT_NO_THROW(requireWritable(path("a")));
+    EXPECT_NO_THROW(requireWritable("a-file-of-the-working-folder"));
+    EXPECT_NO_THROW(requireWritable("/dev/null"));
+    EXPECT_THROW(requireWritable(path("missing/a")), FileError);
+    EXPECT_THROW(requireWritable(folder_.string()), FileError);
+    EXPECT_EQ(fileCount(), 0);
+}
+
+TEST_F(FileTest, KnowsBeforehandThatAFolderIsReadOnly) {
+    if (::geteuid() == 0) GTEST_SKIP() << "root may write anywhere";
+    fs::permissions(folder_, fs::perms::owner_read | fs::perms::owner_exec);
+    EXPECT_THROW(requireWritable(path("a")), FileError);
+    fs::permissions(folder_, fs::perms::owner_all);
 }
 
 TEST_F(FileTest, WritesToADeviceDirectly) {
