@@ -13,8 +13,9 @@ namespace {
 
 std::atomic<Progress*> active{nullptr};
 
-extern "C" void onInterrupt(int) {
+extern "C" void onInterrupt(int signal) {
     if (Progress* progress = active.load()) progress->cancel();
+    std::signal(signal, SIG_DFL);
 }
 
 double seconds(std::chrono::steady_clock::duration d) {

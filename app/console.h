@@ -9,7 +9,8 @@
 namespace vlf::app {
 
 /// Progress on standard error: a bar with the time left on a terminal, a plain line per stage and
-/// tenth otherwise, nothing when quiet. Ctrl-C (SIGINT) and SIGTERM cancel the newest one alive.
+/// tenth otherwise, nothing when quiet. Ctrl-C (SIGINT) and SIGTERM cancel the newest one alive; a
+/// second one ends the program at once.
 class ConsoleProgress : public Progress {
   public:
     explicit ConsoleProgress(bool quiet);

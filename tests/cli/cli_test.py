@@ -5,10 +5,12 @@ Run as: cli_test.py PATH_OF_VLF [unittest options]
 
 import json
 import os
+import resource
 import signal
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 from pathlib import Path
 
@@ -168,22 +170,92 @@ class BadInput(Case):
         self.run_vlf("info", "half.vlf", code=BAD_INPUT, says=["half.vlf"])
 
 
-class Interrupt(Case):
-    def test_ctrl_c_stops_a_bake_and_leaves_the_old_file(self):
+class FullDisk(Case):
+    def test_a_bake_that_finds_no_room_for_its_file_leaves_the_old_one(self):
         old = self.bake("room.vlf").read_bytes()
         before = self.files()
-        process = subprocess.Popen(
-            [PROGRAM, "bake", "cornell.obj", "-o", "room.vlf", "--preset", "high", "--texel",
-             "0.02", "--directions", "8193", "--cells", "4096"],
-            cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
-        for line in process.stdout:  # until the work has begun
-            if "bounces" in line or "direct" in line:
-                break
-        process.send_signal(signal.SIGINT)
-        rest, _ = process.communicate(timeout=60)
-        self.assertEqual(process.returncode, INTERRUPTED, rest)
+
+        def limit_files():
+            signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+            resource.setrlimit(resource.RLIMIT_FSIZE, (len(old) // 2, len(old) // 2))
+
+        done = subprocess.run([PROGRAM, "bake", "cornell.obj", "-o", "room.vlf", "--preset", "draft",
+                               "--texel", "0.2"], cwd=self.folder, capture_output=True, text=True,
+                              preexec_fn=limit_files, timeout=120)
+        self.assertEqual(done.returncode, FAILED, done.stderr)
+        self.assertIn("room.vlf", done.stderr)
         self.assertEqual((self.folder / "room.vlf").read_bytes(), old)
         self.assertEqual(self.files(), before)
+
+    def test_a_full_device_is_named(self):
+        if os.path.exists("/dev/full"):
+            self.run_vlf("bake", "cornell.obj", "-o", "/dev/full", "--preset", "draft", "--texel",
+                         "0.3", code=FAILED, says=["/dev/full", "No space left"])
+
+    def test_a_bake_can_be_thrown_away(self):
+        self.run_vlf("bake", "cornell.obj", "-o", "/dev/null", "--preset", "draft", "--texel", "0.3")
+
+
+class Interrupt(Case):
+    """Ctrl-C while a stage of the work goes on."""
+
+    LONGEST = 10  # seconds until the program ends, on a busy machine and with sanitizers
+
+    def interrupt(self, stage, *arguments):
+        """Starts the program, interrupts it when the stage has begun and checks how it ends."""
+        process = subprocess.Popen([PROGRAM, *arguments], cwd=self.folder, text=True,
+                                   stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+        said = []
+        for line in process.stdout:
+            said.append(line)
+            if line.startswith(stage):
+                break
+        time.sleep(0.2)
+        process.send_signal(signal.SIGINT)
+        rest, _ = process.communicate(timeout=self.LONGEST)
+        self.assertEqual(process.returncode, INTERRUPTED, "".join(said) + rest)
+
+    def leaves_alone(self, name, stage, *arguments):
+        old = (self.folder / name).read_bytes()
+        before = self.files()
+        self.interrupt(stage, *arguments)
+        self.assertEqual((self.folder / name).read_bytes(), old)
+        self.assertEqual(self.files(), before)
+
+    def test_a_bake_leaves_the_old_file(self):
+        self.bake("room.vlf")
+        bake = ["bake", "cornell.obj", "-o", "room.vlf", "--preset", "high", "--json", "bake.json"]
+        (self.folder / "bake.json").write_text("old")
+        self.leaves_alone("room.vlf", "direct light", *bake, "--texel", "0.01", "--direct-samples",
+                          "4096")
+        self.leaves_alone("room.vlf", "bounces", *bake, "--texel", "0.02", "--direct-samples", "1",
+                          "--cells", "4096")
+
+    def test_a_bake_of_mirrors_leaves_the_old_file(self):
+        self.bake("room.vlf")
+        self.run_vlf("scene", "mirror-room", "--triangles", "1000", "-o", ".")
+        self.leaves_alone("room.vlf", "radiance field", "bake", "mirror-room.obj", "-o", "room.vlf",
+                          "--preset", "draft", "--texel", "0.3", "--radiance-directions", "8193",
+                          "--radiance-cells", "512")
+
+    def test_a_still_leaves_the_old_picture(self):
+        self.bake("room.vlf")
+        (self.folder / "a.png").write_text("old")
+        for mode in ("raytraced", "wireframe"):
+            self.leaves_alone("a.png", "rendering", "render", "room.vlf", "--mode", mode, "--size",
+                              "6000x5000", "--antialias", "16", "-o", "a.png")
+
+    def test_measuring_irradiance_leaves_the_old_report(self):
+        self.bake("room.vlf")
+        (self.folder / "a.json").write_text("old")
+        self.leaves_alone("a.json", "path tracing texels", "reference", "cornell.obj",
+                          "--irradiance", "room.vlf", "--spp", "1000000", "-o", "a.json")
+
+    def test_path_tracing_keeps_what_there_is(self):
+        self.interrupt("path tracing", "reference", "cornell.obj", "--size", "64x48", "--spp",
+                       "100000000", "-o", "a.exr")
+        self.run_vlf("compare", "a.exr", "a.exr")
+        self.assertFalse([f for f in self.files() if ".tmp" in f])
 
 
 if __name__ == "__main__":
