@@ -1,15 +1,16 @@
 // gather_rival SCENE -o F.vlf --rays N: a bake whose bounces are a gather with rays of Embree.
 //
-// Charts, direct light and the atlas are those of `vlf bake`, so that the two differ in the
-// bounces alone; the rule by which the coarse bounces end is the same, too. The field can be
-// measured like any other: `vlf reference SCENE --irradiance F.vlf`. bench/gather_table.py makes
-// the table of docs/benchmarks.md.
+// Charts, direct light and the atlas are those of `vlf bake`, so that the two differ in the bounces
+// alone; how the coarse ones end and how the noise of the last is smoothed is the same, too. The
+// field can be measured like any other: `vlf reference SCENE --irradiance F.vlf`.
+// bench/gather_table.py makes the table of docs/benchmarks.md.
 
 #include "texel_gather.h"
 
 #include "vlf/base/parallel.h"
 #include "vlf/io/field_file.h"
 #include "vlf/propagate/convergence.h"
+#include "vlf/propagate/smooth_indirect.h"
 #include "vlf/scene/import/import.h"
 #include "vlf/scene/scene_hash.h"
 
@@ -27,43 +28,79 @@ using namespace vlf;
 struct Options {
     std::string scene, output, json, preset = "standard";
     int rays = 256;
-    int coarseRays = 16;
+    int coarseRays = 8;
     int threads = 0;
 };
 
-/// L = ρE/π of every texel; black within solids.
+/// L = ρE/π of every texel. Texels whose light is not known are no samples unless they are black.
 TexelBuffer emit(const BakeState& state) {
     const Unwrap& unwrap = state.unwrap;
     TexelBuffer radiance(unwrap.atlasSize());
     for (std::size_t i = 0; i < unwrap.texels.size(); ++i)
         radiance.set(unwrap.texels[i], state.reflectance[i] * state.irradiance[i] / kPi, 1);
+    for (const auto& [texel, chart] : unwrap.divided)
+        if (maxComponent(state.scene.materials[unwrap.charts[chart].material].diffuse) <= 0)
+            radiance.set(texel, Vec3(0), 1);
     for (const auto& [texel, proxy] : unwrap.proxies) radiance.set(texel, radiance.rgb(proxy), 1);
     return radiance;
 }
 
-/// One bounce: E = E_direct + π ΣL / n.
-void gatherOnce(BakeState& state, const bench::TexelGather& gather, int rays) {
-    const auto seed = static_cast<std::uint64_t>(++state.report.sweeps);
-    const TexelBuffer gathered = gather.gather(emit(state), rays, seed);
-    for (std::size_t i = 0; i < state.unwrap.texels.size(); ++i) {
-        const std::uint32_t texel = state.unwrap.texels[i];
-        if (gathered.weight(texel) <= 0) continue;
-        state.reached[i] = 1;
-        state.irradiance[i] =
-            state.directIrradiance[i] + kPi * gathered.rgb(texel) / gathered.weight(texel);
-    }
-}
+/// A bake by gathering.
+class GatherBake {
+  public:
+    GatherBake(BakeState& state, const Options& options)
+        : state_(state), options_(options), gather_(state) {}
 
-void bounce(BakeState& state, const Options& options) {
-    const bench::TexelGather gather(state);
-    Convergence convergence(state);
-    while (!convergence.reached(state.params.maxBounces, state.params.tolerance)) {
-        gatherOnce(state, gather, options.coarseRays);
-        convergence.update(state);
+    /// As propagate(): coarse bounces to convergence, the mean of a few more, a fine one.
+    void propagate() {
+        Convergence convergence(state_);
+        while (!convergence.reached(state_.params.maxBounces, state_.params.tolerance)) {
+            bounce(options_.coarseRays, 1);
+            convergence.update(state_);
+        }
+        state_.report.residual = convergence.residual();
+        if (state_.params.settlingSweeps > 0) settle();
+        bounce(options_.rays, kParts);
     }
-    state.report.residual = convergence.residual();
-    gatherOnce(state, gather, options.rays);
-}
+
+  private:
+    static constexpr int kParts = 4;  // of the last bounce: how they differ tells the noise
+
+    void settle() {
+        std::vector<Vec3> sum(state_.irradiance.size(), Vec3(0));
+        for (int i = 0; i < state_.params.settlingSweeps; ++i) {
+            bounce(options_.coarseRays, 1);
+            for (std::size_t t = 0; t < sum.size(); ++t) sum[t] += state_.irradiance[t];
+        }
+        for (std::size_t t = 0; t < sum.size(); ++t)
+            state_.irradiance[t] = sum[t] / static_cast<float>(state_.params.settlingSweeps);
+    }
+
+    /// E = E_direct + π ΣL / n, smoothed where there are parts.
+    void bounce(int rays, int parts) {
+        const TexelBuffer radiance = emit(state_);
+        std::vector<TexelBuffer> gathered(parts, TexelBuffer(state_.unwrap.atlasSize()));
+        for (int part = 0; part < parts; ++part)
+            gather_.gather(radiance, rays / parts, ++seed_, gathered[part]);
+        ++state_.report.sweeps;
+        deposit(gathered);
+    }
+
+    void deposit(const std::vector<TexelBuffer>& parts) {
+        const TexelBuffer gathered = sumInOrder(parts);
+        const std::vector<Vec3> indirect = smoothIndirect(state_.unwrap, parts, gathered);
+        for (std::size_t i = 0; i < indirect.size(); ++i) {
+            if (gathered.weight(state_.unwrap.texels[i]) <= 0) continue;
+            state_.reached[i] = 1;
+            state_.irradiance[i] = state_.directIrradiance[i] + indirect[i];
+        }
+    }
+
+    BakeState& state_;
+    const Options& options_;
+    bench::TexelGather gather_;
+    std::uint64_t seed_ = 0;
+};
 
 nlohmann::ordered_json toJson(const Options& options, const BakeReport& report) {
     nlohmann::ordered_json stages = nlohmann::ordered_json::array();
@@ -83,7 +120,7 @@ void run(const Options& options) {
     Progress progress;
     BakeState state = makeState(room.scene, params, progress);
     const std::clock_t start = std::clock();
-    bounce(state, options);
+    GatherBake(state, options).propagate();
     state.report.stages.push_back(
         {"bounces", 0, static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC});
     room.field = finish(state, progress);

@@ -61,16 +61,20 @@ def measure(args, scene, folder):
     vlf = args.build / "app/vlf"
     report = bake(vlf, path, field, "--preset", args.preset, "--radiance-directions", 0)
     truth = IrradianceTruth(vlf, args.cache or folder / "truth", args.texels, args.spp)
-    baked = Point(report, truth.of(path, field))
-    points = sweep(args, path, baked.error, truth, folder)
-    row = f"| {path.stem} | {baked.all:.2f} | {100 * baked.error:.2f} % "
-    if len(points) < 2 or points[-1].error >= baked.error:
+    error = truth.of(path, field)
+    baked = Point(report, error)
+    # An error far below the truth's own noise is not measured: then all that follows is a bound.
+    target = max(baked.error, 0.5 * error["truthError"])
+    at_most, at_least = ("≤ ", "≥ ") if target > baked.error else ("", "")
+    points = sweep(args, path, target, truth, folder)
+    row = f"| {path.stem} | {baked.all:.2f} | {at_most}{100 * target:.2f} % | "
+    if len(points) < 2 or points[-1].error >= target:
         last = points[-1]
-        return row + f"| {last.rays}: {100 * last.error:.2f} % | {last.all:.2f} | not compared | |"
-    rays, cpu, bounces = (at_error(points, baked.error, q) for q in
+        return row + f"{last.rays}: {100 * last.error:.2f} % | {last.all:.2f} | not compared | |"
+    rays, cpu, bounces = (at_error(points, target, q) for q in
                           (lambda p: p.rays, lambda p: p.all, lambda p: p.bounces))
-    return row + (f"| {rays:.0f} | {cpu:.2f} | {cpu / baked.all:.1f}x | "
-                  f"{bounces / baked.bounces:.1f}x |")
+    return row + (f"{at_least}{rays:.0f} | {at_least}{cpu:.2f} | {at_least}{cpu / baked.all:.1f}x | "
+                  f"{at_least}{bounces / baked.bounces:.1f}x |")
 
 
 def main():

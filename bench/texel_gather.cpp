@@ -12,9 +12,10 @@ namespace vlf::bench {
 
 namespace {
 
-constexpr std::size_t kPacket =
-    8;  // neighbouring texels that share directions, as a packet has rays
-constexpr std::size_t kPacketsPerTask = 32;
+// Texels whose rays form packets, all of one direction: so many of a row, each kStride apart, so
+// that neighbours have directions of their own and their noise can be told from their light.
+constexpr std::size_t kPacket = 8, kStride = 3;
+constexpr std::size_t kRunsPerTask = 10;
 constexpr int kRaysAtOnce = 16;  // of each texel of a packet
 constexpr float kMinThroughput = 1e-4f;
 
@@ -100,30 +101,37 @@ std::vector<TexelGather::Start> TexelGather::startsOf(std::size_t texel) const {
     return starts;
 }
 
-TexelBuffer TexelGather::gather(const TexelBuffer& radiance, int count, std::uint64_t seed) const {
-    const std::size_t texels = state_.unwrap.texels.size();
-    TexelBuffer gathered(state_.unwrap.atlasSize());
-    parallelFor((texels + kPacket - 1) / kPacket, kPacketsPerTask, [&](std::size_t packet) {
-        gatherPacket(packet * kPacket, std::min(texels, (packet + 1) * kPacket), count, seed,
-                     radiance, gathered);
+void TexelGather::gather(const TexelBuffer& radiance, int count, std::uint64_t seed,
+                         TexelBuffer& gathered) const {
+    constexpr std::size_t kRun = kPacket * kStride;
+    const std::size_t runs = (state_.unwrap.texels.size() + kRun - 1) / kRun;
+    parallelFor(runs, kRunsPerTask, [&](std::size_t run) {
+        for (std::size_t i = 0; i < kStride; ++i)
+            gatherPacket(run * kRun + i, count, seed, radiance, gathered);
     });
-    return gathered;
 }
 
-void TexelGather::gatherPacket(std::size_t first, std::size_t last, int count, std::uint64_t seed,
+/// Of every kStride-th texel from `first` on.
+void TexelGather::gatherPacket(std::size_t first, int count, std::uint64_t seed,
                                const TexelBuffer& radiance, TexelBuffer& gathered) const {
     RandomStream random(seed, first);
     const Vec2 shift = random.next2();
+    std::vector<std::uint32_t> texels;
     std::vector<std::vector<Start>> starts;
-    for (std::size_t i = first; i < last; ++i) starts.push_back(startsOf(i));
+    for (std::size_t lane = 0; lane < kPacket; ++lane) {
+        const std::size_t i = first + lane * kStride;
+        if (i >= state_.unwrap.texels.size()) break;
+        texels.push_back(state_.unwrap.texels[i]);
+        starts.push_back(startsOf(i));
+    }
     Queue queue;
     for (int k = 0; k < count; ++k) {
         const Vec3 local = sampleCosineHemisphere(hammersleyPoint(k, count, shift));
         const auto point = static_cast<std::uint32_t>(random.nextBits());
-        for (std::size_t i = first; i < last; ++i) {
-            const std::vector<Start>& from = starts[i - first];
-            queue.add({state_.unwrap.texels[i]},
-                      from[point % static_cast<std::uint32_t>(from.size())].ray(local, random));
+        for (std::size_t lane = 0; lane < texels.size(); ++lane) {
+            const std::vector<Start>& from = starts[lane];
+            const Start& start = from[point % static_cast<std::uint32_t>(from.size())];
+            queue.add({texels[lane]}, start.ray(local, random));
         }
         if (k % kRaysAtOnce == kRaysAtOnce - 1 || k == count - 1) trace(queue, radiance, gathered);
     }
@@ -152,8 +160,9 @@ void TexelGather::arrive(const Path& path, const Ray& ray, const Hit& hit,
     const std::uint32_t chart = front ? charts.front : charts.back;
     if (chart == kNoChart) return;
     const Vec3 position = ray.origin + hit.t * ray.direction;
-    const Vec3 seen = radiance.rgb(texelAt(state_.unwrap, state_.unwrap.charts[chart], position)) +
-                      emissionSeen(path, hit, front);
+    const std::uint32_t texel = texelAt(state_.unwrap, state_.unwrap.charts[chart], position);
+    if (path.reflections == 0 && radiance.weight(texel) <= 0) return;
+    const Vec3 seen = radiance.rgb(texel) + emissionSeen(path, hit, front);
     gathered.add(path.receiver, path.throughput * seen, counts);
     if (path.reflections < kMaxReflections && state_.scene.material(hit.triangle).isMirror())
         reflect(path, ray, hit, front, reflected);

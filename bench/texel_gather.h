@@ -19,20 +19,20 @@ class TexelGather {
     /// Keeps a reference to `state`.
     explicit TexelGather(const BakeState& state);
 
-    /// Sum of the radiance seen and number of samples, per atlas texel, of `count` rays from each
-    /// of the unwrap's texels. `radiance`: diffuse radiance leaving each. Calls of different seeds
-    /// are independent of each other.
-    TexelBuffer gather(const TexelBuffer& radiance, int count, std::uint64_t seed) const;
+    /// Adds to `gathered` the radiance seen and the number of samples, per atlas texel, of `count`
+    /// rays from each of the unwrap's texels. `radiance`: diffuse radiance leaving each; where its
+    /// weight is 0, none is known and a ray no sample. Calls of different seeds are independent.
+    void gather(const TexelBuffer& radiance, int count, std::uint64_t seed,
+                TexelBuffer& gathered) const;
 
   private:
     struct Path;
     struct Start;
-    class Receiver;
     struct Queue;
 
     std::vector<Start> startsOf(std::size_t texel) const;
-    void gatherPacket(std::size_t first, std::size_t last, int count, std::uint64_t seed,
-                      const TexelBuffer& radiance, TexelBuffer& gathered) const;
+    void gatherPacket(std::size_t first, int count, std::uint64_t seed, const TexelBuffer& radiance,
+                      TexelBuffer& gathered) const;
     void trace(Queue& queue, const TexelBuffer& radiance, TexelBuffer& gathered) const;
     void arrive(const Path& path, const Ray& ray, const Hit& hit, const TexelBuffer& radiance,
                 TexelBuffer& gathered, Queue& reflected) const;
