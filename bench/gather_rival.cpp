@@ -86,13 +86,15 @@ class GatherBake {
         deposit(gathered);
     }
 
-    void deposit(const std::vector<TexelBuffer>& parts) {
-        const TexelBuffer gathered = sumInOrder(parts);
-        const std::vector<Vec3> indirect = smoothIndirect(state_.unwrap, parts, gathered);
-        for (std::size_t i = 0; i < indirect.size(); ++i) {
-            if (gathered.weight(state_.unwrap.texels[i]) <= 0) continue;
+    void deposit(std::vector<TexelBuffer>& parts) {
+        TexelBuffer gathered = sumInOrder(parts);
+        smoothIndirect(state_.unwrap, parts, gathered);
+        for (std::size_t i = 0; i < state_.unwrap.texels.size(); ++i) {
+            const std::uint32_t texel = state_.unwrap.texels[i];
+            const float samples = gathered.weight(texel);
+            if (samples <= 0) continue;
             state_.reached[i] = 1;
-            state_.irradiance[i] = state_.directIrradiance[i] + indirect[i];
+            state_.irradiance[i] = state_.directIrradiance[i] + kPi * gathered.rgb(texel) / samples;
         }
     }
 
