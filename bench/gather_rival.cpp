@@ -68,8 +68,9 @@ class GatherBake {
 
     void settle() {
         std::vector<Vec3> sum(state_.irradiance.size(), Vec3(0));
-        for (int i = 0; i < state_.params.settlingSweeps; ++i) {
+        for (int i = 0; i < 2 * state_.params.settlingSweeps; ++i) {
             bounce(options_.coarseRays, 1);
+            if (i < state_.params.settlingSweeps) continue;
             for (std::size_t t = 0; t < sum.size(); ++t) sum[t] += state_.irradiance[t];
         }
         for (std::size_t t = 0; t < sum.size(); ++t)

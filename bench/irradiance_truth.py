@@ -38,6 +38,12 @@ class IrradianceTruth:
         return _with_errors(report_of(path), baked["texels"])
 
 
+def restricted(error, where):
+    """The errors over those texels only for whose position `where` is true."""
+    texels = [t for t in error["texels"] if where(t["position"])]
+    return _with_errors({**error, "texels": texels}, texels)
+
+
 def _with_errors(truth, baked):
     """The errors as in src/vlf/render/cpu/irradiance_error.h, for baked values of another field."""
     squares = truth_squares = variance = difference = difference_variance = total = 0.0
@@ -53,6 +59,7 @@ def _with_errors(truth, baked):
             difference_variance += (area * s) ** 2
             total += area * t
     signal = truth_squares - variance
-    return {**truth, "relativeRmse": math.sqrt(max(0.0, squares - variance) / signal),
+    texels = [{**t, "baked": other["baked"]} for t, other in zip(truth["texels"], baked)]
+    return {**truth, "texels": texels, "relativeRmse": math.sqrt(max(0.0, squares - variance) / signal),
             "truthError": math.sqrt(variance / signal), "bias": difference / total,
             "biasError": math.sqrt(difference_variance) / total}

@@ -111,7 +111,7 @@ BakeParams presetParams(const std::string& name) {
         p.texelBudget = 20000;
         p.directSamples = 2;
         p.tolerance = 5e-3;
-        p.settlingSweeps = 2;
+        p.settlingSweeps = 1;
         p.radianceDirections = 513;
         p.radianceCells = 128;
     } else if (name == "high") {
@@ -121,7 +121,7 @@ BakeParams presetParams(const std::string& name) {
         p.directSamples = 32;
         p.tolerance = 3e-4;
         p.coarseDirections = 513;
-        p.settlingSweeps = 8;
+        p.settlingSweeps = 6;
         p.radianceCells = 512;
     } else if (name != "standard") {
         throw InputError("unknown preset '" + name + "': choose draft, standard or high");

@@ -29,7 +29,7 @@ struct BakeParams {
     int coarseCells = 128;
     int maxBounces = 0;             ///< 0: until converged
     double tolerance = 1e-3;        ///< of the light still missing, relative
-    int settlingSweeps = 6;         ///< coarse ones after that, whose mean goes into the last
+    int settlingSweeps = 4;         ///< twice as many follow; the mean of the later half goes on
     int radianceDirections = 2049;  ///< of the radiance field of mirror charts; 0: none
     int radianceCells = 256;
     int tileSize = 8;  ///< m, a power of two

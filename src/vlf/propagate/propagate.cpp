@@ -133,13 +133,14 @@ void propagateOnce(BakeState& state, int directions, int cells, int rotation, Pr
 
 namespace {
 
-/// Takes the mean over further sweeps. The noise of each is slight, but alike over whole charts,
-/// and the last sweep would hand it on.
+/// Takes the mean over sweeps after as many more that only bring what is still missing. The noise
+/// of each is slight, but alike over whole charts, and the last sweep would hand it on.
 void settle(BakeState& state, Progress& progress) {
     const BakeParams& p = state.params;
     std::vector<Vec3> sum(state.irradiance.size(), Vec3(0));
-    for (int i = 0; i < p.settlingSweeps; ++i) {
+    for (int i = 0; i < 2 * p.settlingSweeps; ++i) {
         propagateOnce(state, p.coarseDirections, p.coarseCells, state.report.sweeps, progress);
+        if (i < p.settlingSweeps) continue;
         for (std::size_t t = 0; t < sum.size(); ++t) sum[t] += state.irradiance[t];
     }
     for (std::size_t t = 0; t < sum.size(); ++t)
