@@ -29,6 +29,7 @@ struct Options {
     std::string scene, output, json, preset = "standard";
     int rays = 256;
     int coarseRays = 8;
+    int settling = 4;
     int threads = 0;
 };
 
@@ -58,7 +59,7 @@ class GatherBake {
             bounce(options_.coarseRays, 1);
             convergence.update(state_);
         }
-        state_.report.residual = convergence.residual();
+        state_.report.residual = convergence.residualAfter(state_.params.settlingSweeps);
         if (state_.params.settlingSweeps > 0) settle();
         bounce(options_.rays, kParts);
     }
@@ -120,6 +121,7 @@ void run(const Options& options) {
     room.scene = importScene({options.scene}, imported);
     BakeParams params = presetParams(options.preset);
     params.radianceDirections = 0;
+    params.settlingSweeps = options.settling;
     Progress progress;
     BakeState state = makeState(room.scene, params, progress);
     const std::clock_t start = std::clock();
@@ -145,6 +147,9 @@ int main(int argc, char** argv) {
         ->capture_default_str();
     app.add_option("--coarse-rays", options.coarseRays, "Of the bounces before it")
         ->check(CLI::Range(1, 1 << 20))
+        ->capture_default_str();
+    app.add_option("--settling", options.settling, "Mean of so many bounces into the last")
+        ->check(CLI::Range(0, 1000))
         ->capture_default_str();
     app.add_option("--preset", options.preset, "draft, standard or high")->capture_default_str();
     app.add_option("--threads", options.threads, "0: one per core");

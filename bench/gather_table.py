@@ -16,7 +16,7 @@ import pathlib
 import sys
 import tempfile
 
-from irradiance_truth import IrradianceTruth
+from irradiance_truth import IrradianceTruth, measured_rmse
 from program import bake, cpu_seconds, report_of, run, scene_file
 
 SCENES = ["cornell", "mirror-room", "two-rooms"]
@@ -63,9 +63,8 @@ def measure(args, scene, folder):
     truth = IrradianceTruth(vlf, args.cache or folder / "truth", args.texels, args.spp)
     error = truth.of(path, field)
     baked = Point(report, error)
-    # An error far below the truth's own noise is not measured: then all that follows is a bound.
-    target = max(baked.error, 0.5 * error["truthError"])
-    at_most, at_least = ("≤ ", "≥ ") if target > baked.error else ("", "")
+    target, is_bound = measured_rmse(error)
+    at_most, at_least = ("≤ ", "≥ ") if is_bound else ("", "")
     points = sweep(args, path, target, truth, folder)
     row = f"| {path.stem} | {baked.all:.2f} | {at_most}{100 * target:.2f} % | "
     if len(points) < 2 or points[-1].error >= target:

@@ -38,6 +38,13 @@ class IrradianceTruth:
         return _with_errors(report_of(path), baked["texels"])
 
 
+def measured_rmse(error):
+    """The relative RMSE and False or, where the truth's noise hides it, a bound and True."""
+    rmse, bound = error["relativeRmse"], error["relativeRmseBound"]
+    hidden = bound > math.sqrt(2) * rmse  # the square error is less than two of its standard errors
+    return (bound if hidden else rmse), hidden
+
+
 def restricted(error, where):
     """The errors over those texels only for whose position `where` is true."""
     texels = [t for t in error["texels"] if where(t["position"])]
@@ -45,14 +52,19 @@ def restricted(error, where):
 
 
 def _with_errors(truth, baked):
-    """The errors as in src/vlf/render/cpu/irradiance_error.h, for baked values of another field."""
-    squares = truth_squares = variance = difference = difference_variance = total = 0.0
+    """The errors as in src/vlf/render/cpu/irradiance_error.h, for baked values of another field.
+
+    "relativeRmseBound" is that of the mean square error and twice its standard error.
+    """
+    truth_squares = variance = difference = difference_variance = total = 0.0
+    excess = []  # of the texels' square errors over the variance of their truth
     for texel, other in zip(truth["texels"], baked):
         if texel["samples"] < 2:
             continue
         area = texel["area"]
+        excess.append(0.0)
         for b, t, s in zip(other["baked"], texel["irradiance"], texel["standardError"]):
-            squares += area * (b - t) ** 2
+            excess[-1] += area * ((b - t) ** 2 - s * s)
             truth_squares += area * t * t
             variance += area * s * s
             difference += area * (b - t)
@@ -60,6 +72,9 @@ def _with_errors(truth, baked):
             total += area * t
     signal = truth_squares - variance
     texels = [{**t, "baked": other["baked"]} for t, other in zip(truth["texels"], baked)]
-    return {**truth, "texels": texels, "relativeRmse": math.sqrt(max(0.0, squares - variance) / signal),
+    square = max(0.0, sum(excess))
+    uncertainty = math.sqrt(sum(e * e for e in excess))
+    return {**truth, "texels": texels, "relativeRmse": math.sqrt(square / signal),
+            "relativeRmseBound": math.sqrt((square + 2 * uncertainty) / signal),
             "truthError": math.sqrt(variance / signal), "bias": difference / total,
             "biasError": math.sqrt(difference_variance) / total}

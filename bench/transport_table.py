@@ -15,7 +15,7 @@ import argparse
 import pathlib
 import tempfile
 
-from irradiance_truth import IrradianceTruth, restricted
+from irradiance_truth import IrradianceTruth, measured_rmse, restricted
 from program import bake, cpu_seconds, scene_file
 
 SCENES = ["cornell", "two-rooms", "mirror-room", "gallery", "office"]
@@ -25,9 +25,8 @@ DARK_PLACES = {"two-rooms": ("its dark room", lambda position: position[0] > 4.1
 
 
 def error_columns(error):
-    # An error far below the truth's own noise is not measured: then it is a bound.
-    floor = 0.5 * error["truthError"]
-    rmse, sign = max(error["relativeRmse"], floor), "≤ " if error["relativeRmse"] < floor else ""
+    rmse, is_bound = measured_rmse(error)
+    sign = "≤ " if is_bound else ""
     bias = f"{100 * error['bias']:+.3f} ± {100 * error['biasError']:.3f} %"
     return rmse, sign, f"{sign}{100 * rmse:.2f} % | {bias}"
 

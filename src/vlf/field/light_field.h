@@ -37,7 +37,7 @@ struct BakeRecord {
     float texelSize = 0;         ///< metres
     int directSamples = 0;       ///< per texel
     int bounces = 0;             ///< sweeps done
-    double residual = 0;         ///< relative energy the last sweep added
+    double residual = 0;         ///< estimated light still missing, relative
     EnergyReport energy;
 };
 

@@ -29,7 +29,7 @@ struct BakeParams {
     int coarseCells = 128;
     int maxBounces = 0;             ///< 0: until converged
     double tolerance = 1e-3;        ///< of the light still missing, relative
-    int settlingSweeps = 4;         ///< twice as many follow; the mean of the later half goes on
+    int settlingSweeps = 8;         ///< twice as many follow; the mean of the later half goes on
     int radianceDirections = 2049;  ///< of the radiance field of mirror charts; 0: none
     int radianceCells = 256;
     int tileSize = 8;  ///< m, a power of two
@@ -51,7 +51,7 @@ struct BakeReport {
     std::size_t radianceElements = 0;
     std::uint64_t exchanges = 0;
     int sweeps = 0;
-    double residual = 0;
+    double residual = 0;  ///< estimated light still missing, relative
     EnergyReport energy;
 };
 

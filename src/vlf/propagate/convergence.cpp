@@ -66,6 +66,10 @@ void Convergence::extrapolate(BakeState& state, const std::vector<double>& now) 
     growth_.clear();
 }
 
+double Convergence::residualAfter(int sweeps) const {
+    return residual_ * std::pow(rate_, sweeps);
+}
+
 bool Convergence::reached(int maxBounces, double tolerance) const {
     if (maxBounces > 0) return bounces_ >= maxBounces;
     return residual_ < tolerance || bounces_ >= kMaxSweeps;

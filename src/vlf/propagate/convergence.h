@@ -23,8 +23,9 @@ class Convergence {
     /// `tolerance`, relative.
     bool reached(int maxBounces, double tolerance) const;
 
-    /// Estimated light still missing, relative: the geometric continuation of the growth.
-    double residual() const { return residual_; }
+    /// Estimated light still missing, relative, once `sweeps` more have followed the last that was
+    /// watched: the geometric continuation of the growth.
+    double residualAfter(int sweeps) const;
 
   private:
     std::vector<double> chartIrradiance(const BakeState& state) const;

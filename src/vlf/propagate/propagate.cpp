@@ -156,8 +156,9 @@ void propagate(BakeState& state, Progress& progress) {
         propagateOnce(state, p.coarseDirections, p.coarseCells, state.report.sweeps, progress);
         convergence.update(state);
     }
-    state.report.residual = convergence.residual();
-    if (p.maxBounces == 0 && p.settlingSweeps > 0) settle(state, progress);
+    const int settling = p.maxBounces == 0 ? p.settlingSweeps : 0;
+    if (settling > 0) settle(state, progress);
+    state.report.residual = convergence.residualAfter(settling);
     propagateOnce(state, p.directions, p.cells, -1, progress);
 }
 
