@@ -136,6 +136,23 @@ void addLimits(CLI::App& command, Options& options) {
     limits->require_option(1, 0);
 }
 
+void addIrradianceOptions(CLI::App& command, Options& options) {
+    CLI::Option* irradiance =
+        command.add_option("--irradiance", options.field,
+                           "Measure the irradiance of this field file (.vlf) instead; -o is the "
+                           "report (.json), --spp the samples per texel");
+    for (const char* ofPictures : {"--camera", "--eye", "--fov", "--size", "--exposure", "--tone",
+                                   "--variance", "--max-depth", "--json"})
+        irradiance->excludes(command.get_option(ofPictures));
+    command.add_option("--texels", options.texels, "Texels to measure (0: all)")
+        ->check(CLI::Range(0, 1 << 30))
+        ->needs(irradiance);
+    command
+        .add_flag("--texel-points", options.texelPoints,
+                  "Report the points of the surface that each texel stands for")
+        ->needs(irradiance);
+}
+
 }  // namespace
 
 void addReference(CLI::App& app, const Globals& globals) {
@@ -156,13 +173,7 @@ void addReference(CLI::App& app, const Globals& globals) {
         ->check(CLI::Range(0, 1 << 20))
         ->capture_default_str();
     command->add_option("--json", options->json, "Write a report to this file");
-    command->add_option("--irradiance", options->field,
-                        "Measure the irradiance of this field file (.vlf) instead; -o is the "
-                        "report (.json), --spp the samples per texel");
-    command->add_option("--texels", options->texels, "Texels to measure (0: all)")
-        ->check(CLI::Range(0, 1 << 30));
-    command->add_flag("--texel-points", options->texelPoints,
-                      "Report the points of the surface that each texel stands for");
+    addIrradianceOptions(*command, *options);
     command->footer(
         "Ctrl-C writes the picture as far as it has come.\n\n"
         "Example:\n"

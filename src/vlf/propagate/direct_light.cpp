@@ -2,6 +2,7 @@
 
 #include "vlf/base/parallel.h"
 #include "vlf/math/form_factor.h"
+#include "vlf/math/frame.h"
 #include "vlf/math/random.h"
 #include "vlf/math/sampling.h"
 #include "vlf/propagate/direct_refinement.h"
@@ -21,6 +22,7 @@ constexpr float kMinSamples = 3;
 constexpr float kLittle = 0.01f;   // share of the likely effect of all lights
 constexpr float kGrazing = 1e-5f;  // cosine: a point in a light's own plane gets nothing from it
 constexpr float kSlack = 0.01f;    // texels
+constexpr float kNearField = 0.25f;  // distance, in sides of a square of a light's area
 constexpr std::size_t kTexelsPerBlock = 64;
 
 struct LightSample {
@@ -160,28 +162,48 @@ class DirectGatherer {
 
     /// Irradiance from one image by n samples.
     DirectEstimate gather(const Receiver& r, const LightImage& image, int n, RandomStream& random) {
-        const Light& light = sources_.lights[image.light];
-        drawSamples(r, image, n, random);
+        if (hasFormFactor(sources_.lights[image.light]))
+            return gatherByFormFactor(r, image, n, random);
+        const float reach = nearReach(r, image);
+        drawSamples(r, image, n, reach, random);
         findVisible();
-        Vec3 seen(0), throughput(0);
-        float geometry = 0, visible = 0, squares = 0;
+        DirectEstimate estimate = meanOfSamples(n);
+        if (reach > 0) {
+            drawNearSamples(r, sources_.lights[image.light], n, reach, random);
+            estimate.add(meanOfSamples(n), 1);
+        }
+        return estimate;
+    }
+
+    DirectEstimate meanOfSamples(int n) const {
+        const auto count = static_cast<float>(n);
+        Vec3 sum(0);
+        float squares = 0;
         for (const Sample& s : samples_) {
-            const float contribution = s.geometry * luminance(s.throughput * s.radiance);
-            squares += contribution * contribution;
+            const Vec3 contribution = s.geometry * s.throughput * s.radiance;
+            sum += contribution;
+            squares += luminance(contribution) * luminance(contribution);
+        }
+        const Vec3 mean = sum / count;
+        const float spread = squares / count - luminance(mean) * luminance(mean);
+        return {mean, std::max(0.0f, spread) / count};
+    }
+
+    /// The unoccluded part of a plain light is known exactly: only the share of it that is visible
+    /// is sampled. Where no sample could tell, one half stands for it.
+    DirectEstimate gatherByFormFactor(const Receiver& r, const LightImage& image, int n,
+                                      RandomStream& random) {
+        const Light& light = sources_.lights[image.light];
+        drawSamples(r, image, n, 0, random);
+        findVisible();
+        Vec3 throughput(0);
+        float geometry = 0, visible = 0;
+        for (const Sample& s : samples_) {
             geometry += s.geometry;
             throughput += s.geometry * s.throughput;
-            seen += s.geometry * s.throughput * s.radiance;
             visible += maxComponent(s.throughput) > 0 ? s.geometry : 0;
         }
         const auto count = static_cast<float>(n);
-        if (!hasFormFactor(light)) {
-            const Vec3 mean = seen / count;
-            const float spread =
-                std::max(0.0f, squares / count - luminance(mean) * luminance(mean));
-            return {mean, spread / count};
-        }
-        // The unoccluded part of a plain light is known exactly: only the share of it that is
-        // visible is sampled. Where no sample could tell, one half stands for it.
         const Vec3 unoccluded = light.radiance * kPi * formFactor(r, light, image);
         if (geometry <= 0) {
             const Vec3 value = 0.5f * unoccluded * image.throughput;
@@ -193,17 +215,62 @@ class DirectGatherer {
         return {value, whole * whole * share * (1 - share) / count};
     }
 
-    /// Pairs of a point of the texel and one of the light, both stratified, that face each other.
-    void drawSamples(const Receiver& r, const LightImage& image, int n, RandomStream& random) {
+    /// Within this distance of the receiver a light is sampled by directions instead of points,
+    /// among which 1/r² would leave few that matter; 0 if the light is farther.
+    float nearReach(const Receiver& r, const LightImage& image) const {
+        const Light& light = sources_.lights[image.light];
+        const float reach = kNearField * std::sqrt(light.area);
+        const Vec3 fromLight = r.centre - light.centre;
+        const bool isNear =
+            image.depth == 0 && glm::length(fromLight) < light.radius + reach + r.radius &&
+            (!light.planar || std::abs(glm::dot(light.normal, fromLight)) < reach + r.radius);
+        return isNear ? reach : 0;
+    }
+
+    /// Point j of n of the texel, stratified.
+    Point pointOf(const Receiver& r, int j, int n, float rotation) const {
+        const auto stratum = static_cast<std::size_t>((j + rotation) / n * r.points.size());
+        return surfacePoint(r, (stratum + r.key) % r.points.size());
+    }
+
+    /// What directions of the texel's points meet of the light within `reach`.
+    void drawNearSamples(const Receiver& r, const Light& light, int n, float reach,
+                         RandomStream& random) {
+        const Vec2 shift = random.next2();
+        const float rotation = random.next();
+        samples_.clear();
+        for (int j = 0; j < n; ++j) {
+            const Point p = pointOf(r, j, n, rotation);
+            const Vec3 direction =
+                frameFromNormal(p.shading).toWorld(sampleCosineHemisphere(r2Point(j, shift)));
+            if (glm::dot(p.geometric, direction) <= 0) continue;
+            const Vec3 origin = p.position + rays_.epsilon() * p.geometric;
+            const Hit hit = rays_.closest({origin, direction, 0, reach});
+            if (!hit || !std::binary_search(light.triangles.begin(), light.triangles.end(),
+                                            hit.triangle))
+                continue;
+            const bool front = glm::dot(geometricNormal(scene_, hit.triangle), direction) < 0;
+            if (front != light.front) continue;
+            const Vec3 radiance =
+                emittedRadiance(scene_, scene_.material(hit.triangle),
+                                uvAt(scene_, hit.triangle, hit.barycentric));
+            samples_.push_back({kPi / lobe(p), radiance, Vec3(1)});
+        }
+    }
+
+    /// Pairs of a point of the texel and one of the light, both stratified, that face each other
+    /// and are not nearer than `reach`.
+    void drawSamples(const Receiver& r, const LightImage& image, int n, float reach,
+                     RandomStream& random) {
         const Light& light = sources_.lights[image.light];
         const Vec2 shift = random.next2();
         const float rotation = random.next();
         samples_.clear();
         shadowRays_.clear();
         for (int j = 0; j < n; ++j) {
-            const auto stratum = static_cast<std::size_t>((j + rotation) / n * r.points.size());
-            const Point p = surfacePoint(r, (stratum + r.key) % r.points.size());
+            const Point p = pointOf(r, j, n, rotation);
             const LightSample s = sampleLight(scene_, light, r2Point(j, shift));
+            if (reach > 0 && glm::distance(p.position, s.point) < reach) continue;
             const float g = geometryTerm(p, image.imageFromWorld.point(s.point),
                                          image.imageFromWorld.vector(s.normal)) /
                             s.density;

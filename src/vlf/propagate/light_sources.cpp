@@ -59,6 +59,7 @@ void addPatches(const Scene& scene, std::uint32_t t, Light& light) {
 }
 
 void finishLight(const Scene& scene, Light& light) {
+    std::sort(light.triangles.begin(), light.triangles.end());
     const float side = light.front ? 1.0f : -1.0f;
     Vec3 areaSum(0);
     Bounds bounds;

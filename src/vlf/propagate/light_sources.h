@@ -36,7 +36,7 @@ struct LightPatch {
 
 /// An emitter: one side of the triangles of one chart, or of a curved body of many.
 struct Light {
-    std::vector<std::uint32_t> triangles;
+    std::vector<std::uint32_t> triangles;  ///< in ascending order
     std::vector<LightPatch> patches;
     std::vector<float> cumulativePower;  ///< luminous power up to and including patch i, W
     std::vector<float> density;          ///< of sampling a point of patch i, m⁻²
