@@ -143,6 +143,26 @@ TEST(DirectLight, OfTwoLampsAddsUp) {
               5e-3);
 }
 
+TEST(DirectLight, OfATexturedLampIsSteadyHoweverClose) {
+    // The lamp is a square of 4 m over one of 2 m: within 1 m, part of it is near.
+    for (const float height : {0.01f, 0.7f, 1.5f}) {
+        const Lamp lamp{{-1, height, -1}, {4, 0, 0}, {0, 0, 4}, 3};
+        SceneBuilder b;
+        b.quad(Vec3(0), {0, 0, 2}, {2, 0, 0}, b.material("floor", Vec3(0.5f)));
+        addLamp(b, lamp);
+        Scene scene = b.scene();
+        Texture& white = scene.textures.emplace_back();
+        white.width = white.height = 1;
+        white.linear = {Vec3(1)};
+        scene.materials.back().emissionTexture = 0;
+        const Lit lit(scene, 0.1f, 64);
+        const auto expected = [&](const Vec3& p) {
+            return height < 0.1f ? 3.0 * kPi : irradianceFrom(lamp, p, kUp);
+        };
+        EXPECT_LT(lit.largestError(expected), 0.05) << height << " m";
+    }
+}
+
 TEST(DirectLight, ByAPlanarMirrorComesFromTheMirrorImage) {
     // A mirror in the plane x = 0; the lamp at x = 1 faces it, so that the floor beyond has light
     // from its image alone.
