@@ -133,6 +133,13 @@ class BadInput(Case):
         self.run_vlf("bake", "cornell.obj", "-o", "a.vlf", "--preset", "best", code=USAGE,
                      says=["preset"])
 
+    def test_options_of_pictures_are_no_options_of_irradiance(self):
+        self.bake("room.vlf")
+        for option in (["--max-depth", "3"], ["--size", "8x8"], ["--camera", "front"]):
+            self.run_vlf("reference", "cornell.obj", "--irradiance", "room.vlf", "--spp", "4",
+                         "-o", "error.json", *option, code=USAGE, says=[option[0], "--irradiance"])
+        self.assertNotIn("error.json", self.files())
+
     def test_an_empty_scene_is_named(self):
         (self.folder / "empty.obj").write_text(EMPTY_OBJ)
         self.bake_fails("empty.obj", BAD_INPUT, ["empty.obj"])
