@@ -141,8 +141,8 @@ void addIrradianceOptions(CLI::App& command, Options& options) {
         command.add_option("--irradiance", options.field,
                            "Measure the irradiance of this field file (.vlf) instead; -o is the "
                            "report (.json), --spp the samples per texel");
-    for (const char* ofPictures : {"--camera", "--eye", "--fov", "--size", "--exposure", "--tone",
-                                   "--variance", "--max-depth", "--json"})
+    for (const char* ofPictures : {"--camera", "--eye", "--up", "--fov", "--size", "--exposure",
+                                   "--tone", "--variance", "--max-depth", "--json"})
         irradiance->excludes(command.get_option(ofPictures));
     command.add_option("--texels", options.texels, "Texels to measure (0: all)")
         ->check(CLI::Range(0, 1 << 30))

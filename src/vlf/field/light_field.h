@@ -33,11 +33,11 @@ struct BakeRecord {
     int cells = 0;               ///< N
     int radianceDirections = 0;  ///< lines of the radiance field; 0: no mirrors
     int radianceCells = 0;
-    int tileSize = 0;            ///< m
-    float texelSize = 0;         ///< metres
-    int directSamples = 0;       ///< per texel
-    int bounces = 0;             ///< sweeps done
-    double residual = 0;         ///< estimated light still missing, relative
+    int tileSize = 0;       ///< m
+    float texelSize = 0;    ///< metres
+    int directSamples = 0;  ///< per texel
+    int bounces = 0;        ///< sweeps done
+    double residual = 0;    ///< estimated light still missing, relative
     EnergyReport energy;
 };
 

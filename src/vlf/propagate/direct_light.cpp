@@ -19,9 +19,9 @@ constexpr int kMaxAnalyticTriangles = 8;
 constexpr float kAgreement = 0.1f;  // relative spread of form factors over a texel
 constexpr std::array<std::size_t, kTexelGrid> kLatinSquare{1, 3, 0, 2};  // column taken in each row
 constexpr float kMinSamples = 3;
-constexpr float kLittle = 0.01f;   // share of the likely effect of all lights
-constexpr float kGrazing = 1e-5f;  // cosine: a point in a light's own plane gets nothing from it
-constexpr float kSlack = 0.01f;    // texels
+constexpr float kLittle = 0.01f;     // share of the likely effect of all lights
+constexpr float kGrazing = 1e-5f;    // cosine: a point in a light's own plane gets nothing from it
+constexpr float kSlack = 0.01f;      // texels
 constexpr float kNearField = 0.25f;  // distance, in sides of a square of a light's area
 constexpr std::size_t kTexelsPerBlock = 64;
 
@@ -246,14 +246,13 @@ class DirectGatherer {
             if (glm::dot(p.geometric, direction) <= 0) continue;
             const Vec3 origin = p.position + rays_.epsilon() * p.geometric;
             const Hit hit = rays_.closest({origin, direction, 0, reach});
-            if (!hit || !std::binary_search(light.triangles.begin(), light.triangles.end(),
-                                            hit.triangle))
+            if (!hit ||
+                !std::binary_search(light.triangles.begin(), light.triangles.end(), hit.triangle))
                 continue;
             const bool front = glm::dot(geometricNormal(scene_, hit.triangle), direction) < 0;
             if (front != light.front) continue;
-            const Vec3 radiance =
-                emittedRadiance(scene_, scene_.material(hit.triangle),
-                                uvAt(scene_, hit.triangle, hit.barycentric));
+            const Vec3 radiance = emittedRadiance(scene_, scene_.material(hit.triangle),
+                                                  uvAt(scene_, hit.triangle, hit.barycentric));
             samples_.push_back({kPi / lobe(p), radiance, Vec3(1)});
         }
     }
@@ -270,7 +269,7 @@ class DirectGatherer {
         for (int j = 0; j < n; ++j) {
             const Point p = pointOf(r, j, n, rotation);
             const LightSample s = sampleLight(scene_, light, r2Point(j, shift));
-            if (reach > 0 && glm::distance(p.position, s.point) < reach) continue;
+            if (glm::distance(p.position, s.point) < reach) continue;
             const float g = geometryTerm(p, image.imageFromWorld.point(s.point),
                                          image.imageFromWorld.vector(s.normal)) /
                             s.density;
