@@ -8,8 +8,11 @@
 #include "vlf/base/error.h"
 #include "vlf/io/field_file.h"
 #include "vlf/render/cpu/still.h"
+#include "vlf/render/gl/headless_context.h"
+#include "vlf/render/gl/still.h"
 
 #include <cctype>
+#include <functional>
 #include <map>
 #include <memory>
 #include <set>
@@ -23,8 +26,11 @@ namespace vlf::app {
 
 namespace {
 
+enum class Backend { cpu, gl };
+
 struct Options {
     std::string field;
+    Backend backend = Backend::cpu;
     CameraOptions camera;
     PictureOptions picture;
     std::string json;
@@ -37,6 +43,7 @@ const std::map<std::string, DisplayMode> kModeNames{{"raytraced", DisplayMode::r
                                                     {"field", DisplayMode::field},
                                                     {"wireframe", DisplayMode::wireframe},
                                                     {"diagram", DisplayMode::diagram}};
+const std::map<std::string, Backend> kBackendNames{{"cpu", Backend::cpu}, {"gl", Backend::gl}};
 const std::map<std::string, LookupKind> kLookupNames{{"depth", LookupKind::depthCorrected},
                                                      {"plain", LookupKind::plain}};
 const std::map<std::string, DiagramKind> kDiagramNames{{"directions", DiagramKind::directions},
@@ -130,6 +137,7 @@ nlohmann::ordered_json toJson(const Options& options, const std::vector<Still>& 
     for (const Still& still : stills) pictures.push_back(toJson(still));
     return {{"field", options.field},
             {"mode", nameOf(kModeNames, options.still.mode)},
+            {"backend", nameOf(kBackendNames, options.backend)},
             {"lookup", nameOf(kLookupNames, options.still.lookup)},
             {"antialias", options.still.antialias},
             {"width", options.camera.width},
@@ -137,18 +145,36 @@ nlohmann::ordered_json toJson(const Options& options, const std::vector<Still>& 
             {"pictures", pictures}};
 }
 
-void renderAll(const Options& options, const Globals& globals, const BakedRoom& room,
+using StillRenderer = std::function<Image(const StillParams&, Progress&, StillReport&)>;
+
+void renderAll(const Options& options, const Globals& globals, const StillRenderer& render,
                std::vector<Still>& stills) {
-    const RayScene rays(room.scene);
     for (Still& still : stills) {
         ConsoleProgress progress(globals.quiet);
-        const Image image =
-            renderStill(room.scene, rays, room.field, stillParams(options, still.camera), progress,
-                        &still.report);
+        const Image image = render(stillParams(options, still.camera), progress, still.report);
         writePicture(pictureOptions(options, still.path), image,
                      {{"vlf.mode", nameOf(kModeNames, options.still.mode)},
                       {"vlf.camera", still.camera.name}});
     }
+}
+
+void renderByCpu(const Options& options, const Globals& globals, const BakedRoom& room,
+                 std::vector<Still>& stills) {
+    const RayScene rays(room.scene);
+    const auto render = [&](const StillParams& params, Progress& progress, StillReport& report) {
+        return renderStill(room.scene, rays, room.field, params, progress, &report);
+    };
+    renderAll(options, globals, render, stills);
+}
+
+void renderByOpenGl(const Options& options, const Globals& globals, const BakedRoom& room,
+                    std::vector<Still>& stills) {
+    const gl::HeadlessContext context;
+    Renderer renderer(room.scene, room.field);
+    const auto render = [&](const StillParams& params, Progress& progress, StillReport& report) {
+        return renderStill(renderer, room.scene, params, progress, &report);
+    };
+    renderAll(options, globals, render, stills);
 }
 
 void run(const Options& options, const Globals& globals) {
@@ -157,7 +183,10 @@ void run(const Options& options, const Globals& globals) {
     requireWritableOutputs({options.picture.path, options.json});
     const BakedRoom room = readField(options.field);
     std::vector<Still> stills = stillsToRender(options, room.scene);
-    renderAll(options, globals, room, stills);
+    if (options.backend == Backend::gl)
+        renderByOpenGl(options, globals, room, stills);
+    else
+        renderByCpu(options, globals, room, stills);
     if (!options.json.empty()) writeJson(options.json, toJson(options, stills));
     if (globals.quiet) return;
     for (const Still& still : stills)
@@ -213,6 +242,11 @@ void addRender(CLI::App& app, const Globals& globals) {
                    "A picture from every camera, its name in place of % in -o")
         ->excludes("--camera")
         ->excludes("--eye");
+    command
+        ->add_option("--backend", options->backend,
+                     "Who draws: the CPU in every mode, or OpenGL, without a window, mode field")
+        ->transform(CLI::CheckedTransformer(kBackendNames))
+        ->option_text("cpu|gl [cpu]");
     addModeOptions(*command, options->still);
     addDiagramOptions(*command, *options);
     addPictureOptions(*command, options->picture);

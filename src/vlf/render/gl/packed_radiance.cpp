@@ -1,0 +1,174 @@
+#include "vlf/render/gl/packed_radiance.h"
+
+#include "vlf/base/error.h"
+#include "vlf/base/parallel.h"
+#include "vlf/math/random.h"
+#include "vlf/render/gl/shaders/shared.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace vlf {
+
+namespace {
+
+constexpr float kShearUnit = 1 / 256.0f, kMostShear = 15;  // exact in a float, times any row
+constexpr int kSums = (1 << shared::kSumBits) - 1;
+constexpr int kShares = (1 << shared::kShareBits) - 1;
+constexpr int kDistances = (1 << shared::kDistanceBits) - 1;
+
+/// The cells of a row that hold something, first and last.
+struct RowExtent {
+    int y, first, last;
+};
+
+std::vector<RowExtent> extents(const RadianceField& field, std::span<const TileRow> rows) {
+    std::vector<RowExtent> result;
+    for (const TileRow& row : rows)
+        for (int y = row.tileY * field.tileSize; y < (row.tileY + 1) * field.tileSize; ++y) {
+            RowExtent extent{y, std::numeric_limits<int>::max(), -1};
+            for (int x = row.tileX * field.tileSize;
+                 x < (row.tileX + row.tilesWide) * field.tileSize; ++x) {
+                const RadianceElement* e = field.element(rows, x, y);
+                if (!e || e->distance == 0) continue;
+                extent.first = std::min(extent.first, x);
+                extent.last = x;
+            }
+            if (extent.last >= 0) result.push_back(extent);
+        }
+    return result;
+}
+
+int shift(float shear, int row) {
+    return static_cast<int>(std::floor(shear * static_cast<float>(row)));
+}
+
+/// First and last column of the rectangle with a shear.
+std::pair<int, int> columns(const std::vector<RowExtent>& rows, float shear) {
+    int first = std::numeric_limits<int>::max(), last = std::numeric_limits<int>::min();
+    for (const RowExtent& row : rows) {
+        const int offset = shift(shear, row.y - rows.front().y);
+        first = std::min(first, row.first - offset);
+        last = std::max(last, row.last - offset);
+    }
+    return {first, last};
+}
+
+/// The shear of the narrowest rectangle: its width is convex in the shear but for rounding.
+float bestShear(const std::vector<RowExtent>& rows) {
+    const auto width = [&](int s) {
+        const auto [first, last] = columns(rows, static_cast<float>(s) * kShearUnit);
+        return last - first;
+    };
+    int lower = static_cast<int>(-kMostShear / kShearUnit), upper = -lower;
+    while (upper - lower > 8) {
+        const int a = lower + (upper - lower) / 3, b = upper - (upper - lower) / 3;
+        (width(a) < width(b) ? upper : lower) = width(a) < width(b) ? b : a;
+    }
+    int best = 0;
+    for (int s = lower; s <= upper; ++s)
+        if (width(s) < width(best)) best = s;
+    return static_cast<float>(best) * kShearUnit;
+}
+
+RadianceRecord layOut(const RadianceField& field, std::uint32_t direction, std::uint32_t chart) {
+    const auto rows = extents(field, field.rowsOf(direction, chart));
+    if (rows.empty()) return {};
+    RadianceRecord record;
+    record.shear = bestShear(rows);
+    const auto [first, last] = columns(rows, record.shear);
+    record.x = static_cast<std::uint16_t>(first + 0x8000);
+    record.y = static_cast<std::uint16_t>(rows.front().y);
+    record.width = static_cast<std::uint16_t>(last - first + 1);
+    record.height = static_cast<std::uint16_t>(rows.back().y - rows.front().y + 1);
+    return record;
+}
+
+float sumOf(const Vec3& rgb) {
+    return rgb.x + rgb.y + rgb.z;
+}
+
+/// Sets the ranges that the codes span.
+void findRanges(const RadianceField& field, PackedRadiance& packed) {
+    std::uint16_t longest = 1;
+    float largest = 0;
+    for (const RadianceElement& e : field.elements) {
+        longest = std::max(longest, e.distance);
+        if (e.distance > 0) largest = std::max(largest, sumOf(unpackRgb9e5(e.rgb9e5())));
+    }
+    // What is darker than this beside the brightest cannot be seen in one picture with it.
+    constexpr float kOctaves = 16;
+    packed.longestDistance = field.maxDistance * static_cast<float>(longest) / 65535;
+    packed.log2Step = kOctaves / kSums;
+    packed.log2Smallest = std::log2(std::max(largest, 1e-20f)) - kOctaves;
+}
+
+std::uint32_t rounded(float v, int largest, float dither) {
+    return static_cast<std::uint32_t>(std::clamp(std::floor(v + dither), 0.0f, float(largest)));
+}
+
+/// Rounding is at random, so that the mean of neighbouring elements has no bias and no bands.
+std::uint32_t pack(const RadianceElement& e, const RadianceField& field,
+                   const PackedRadiance& packed, RandomStream& random) {
+    const float metres = field.maxDistance * static_cast<float>(e.distance) / 65535;
+    const std::uint32_t distance =
+        std::max(1u, rounded(metres / packed.longestDistance * kDistances, kDistances, 0.5f));
+    const Vec3 rgb = unpackRgb9e5(e.rgb9e5());
+    const float sum = sumOf(rgb);
+    if (sum <= 0) return distance;
+    const float code = (std::log2(sum) - packed.log2Smallest) / packed.log2Step;
+    const std::uint32_t sumCode = rounded(code, kSums, random.next());
+    const std::uint32_t red = rounded(rgb.x / sum * kShares, kShares, random.next());
+    const std::uint32_t blue = rounded(rgb.z / sum * kShares, kShares, random.next());
+    return distance | sumCode << shared::kDistanceBits |
+           red << (shared::kDistanceBits + shared::kSumBits) |
+           blue << (shared::kDistanceBits + shared::kSumBits + shared::kShareBits);
+}
+
+void fill(const RadianceField& field, std::uint32_t direction, std::uint32_t chart,
+          const RadianceRecord& record, PackedRadiance& packed) {
+    const auto rows = field.rowsOf(direction, chart);
+    RandomStream random(chart, direction);
+    for (int y = 0; y < record.height; ++y)
+        for (int x = 0; x < record.width; ++x) {
+            const int column = record.x - 0x8000 + shift(record.shear, y) + x;
+            const RadianceElement* e = field.element(rows, column, record.y + y);
+            if (!e || e->distance == 0) continue;
+            const std::size_t i =
+                std::size_t{record.firstElement} + static_cast<std::size_t>(y) * record.width + x;
+            packed.elements[i] = pack(*e, field, packed, random);
+        }
+}
+
+}  // namespace
+
+PackedRadiance packRadiance(const RadianceField& field, const std::vector<std::uint32_t>& charts) {
+    PackedRadiance packed;
+    if (field.empty()) return packed;
+    const auto directions = static_cast<std::size_t>(2 * field.lines);
+    packed.records.resize(charts.size() * directions);
+    const auto chartOf = [&](std::size_t i) { return charts[i / directions]; };
+    const auto directionOf = [&](std::size_t i) {
+        return static_cast<std::uint32_t>(i % directions);
+    };
+    parallelFor(packed.records.size(), 16, [&](std::size_t i) {
+        packed.records[i] = layOut(field, directionOf(i), chartOf(i));
+    });
+    std::uint64_t next = 0;
+    for (RadianceRecord& record : packed.records) {
+        record.firstElement = static_cast<std::uint32_t>(next);
+        next += std::uint64_t{record.width} * record.height;
+    }
+    if (next > std::numeric_limits<std::uint32_t>::max())
+        throw InputError(
+            "the radiance field holds too many elements to be shown: bake it with "
+            "fewer --radiance-cells");
+    packed.elements.assign(next, 0);
+    findRanges(field, packed);
+    parallelFor(packed.records.size(), 16, [&](std::size_t i) {
+        fill(field, directionOf(i), chartOf(i), packed.records[i], packed);
+    });
+    return packed;
+}
+
+}  // namespace vlf

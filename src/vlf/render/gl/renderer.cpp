@@ -1,0 +1,248 @@
+#include "vlf/render/gl/renderer.h"
+
+#include "vlf/base/error.h"
+#include "vlf/render/gl/gl_object.h"
+#include "vlf/render/gl/gl_state.h"
+#include "vlf/render/gl/packed_radiance.h"
+#include "vlf/render/gl/room_geometry.h"
+#include "vlf/render/gl/scene_textures.h"
+#include "vlf/render/gl/shader_library.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <map>
+#include <vector>
+
+namespace vlf {
+
+namespace {
+
+using namespace gl;
+using namespace shared;
+
+/// Surfaces of one depth count as one if they are closer than this in a subfield, in cells; as on
+/// the CPU (render/cpu/radiance_lookup.cpp).
+constexpr float kTolerance = 5;
+
+VertexArray makeRoomVertexArray(const Buffer& vertices, const Buffer& indices) {
+    VertexArray array = makeVertexArray();
+    const GLuint id = array.id();
+    glVertexArrayVertexBuffer(id, 0, vertices.id(), 0, sizeof(RoomVertex));
+    glVertexArrayElementBuffer(id, indices.id());
+    const auto floats = [&](GLuint attribute, int count, std::size_t offset) {
+        glVertexArrayAttribFormat(id, attribute, count, GL_FLOAT, GL_FALSE,
+                                  static_cast<GLuint>(offset));
+    };
+    const auto octahedral = [&](GLuint attribute, std::size_t offset) {
+        glVertexArrayAttribFormat(id, attribute, 2, GL_SHORT, GL_TRUE, static_cast<GLuint>(offset));
+    };
+    floats(kPositionAttribute, 3, offsetof(RoomVertex, position));
+    octahedral(kNormalAttribute, offsetof(RoomVertex, normal));
+    octahedral(kGeometricNormalAttribute, offsetof(RoomVertex, geometricNormal));
+    floats(kUvAttribute, 2, offsetof(RoomVertex, uv));
+    floats(kAtlasUvAttribute, 2, offsetof(RoomVertex, atlasUv));
+    glVertexArrayAttribIFormat(id, kMirrorAttribute, 1, GL_UNSIGNED_INT,
+                               offsetof(RoomVertex, mirror));
+    for (int a = kPositionAttribute; a <= kMirrorAttribute; ++a) {
+        glVertexArrayAttribBinding(id, static_cast<GLuint>(a), 0);
+        glEnableVertexArrayAttrib(id, static_cast<GLuint>(a));
+    }
+    return array;
+}
+
+void requireLimit(std::uint64_t needed, GLenum limit, const std::string& what) {
+    GLint most = 0;
+    glGetIntegerv(limit, &most);
+    if (needed > static_cast<std::uint64_t>(most))
+        throw InputError(what + " (" + std::to_string(needed) + ") exceeds what this GPU holds (" +
+                         std::to_string(most) + "); bake it coarser, or render with --backend cpu");
+}
+
+TextureObject makeAtlasTexture(const IrradianceAtlas& atlas) {
+    requireLimit(std::max(atlas.width, atlas.height), GL_MAX_TEXTURE_SIZE,
+                 "the side of the irradiance atlas");
+    TextureObject texture = makeTexture(GL_TEXTURE_2D);
+    glTextureStorage2D(texture.id(), 1, GL_RGB9_E5, static_cast<GLsizei>(std::max(1u, atlas.width)),
+                       static_cast<GLsizei>(std::max(1u, atlas.height)));
+    for (const GLenum wrap : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T})
+        glTextureParameteri(texture.id(), wrap, GL_CLAMP_TO_EDGE);
+    glTextureParameteri(texture.id(), GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    return texture;
+}
+
+/// Which shader draws a batch.
+struct Variant {
+    bool diffuseMap = false, emission = false, mirror = false, plain = false;
+
+    auto operator<=>(const Variant&) const = default;
+
+    Defines defines() const {
+        Defines d;
+        if (diffuseMap) d["DIFFUSE_MAP"] = "1";
+        if (emission) d["EMISSION"] = "1";
+        if (mirror) d["MIRROR"] = "\"radiance_field.glsl\"";
+        if (plain) d["PLAIN"] = "1";
+        return d;
+    }
+};
+
+}  // namespace
+
+struct Renderer::Impl {
+    Impl(const Scene& scene, const LightField& field, const RendererOptions& options)
+        : shaders(options.shaderFolder), textures(scene), materials(scene.materials) {
+        if (field.triangleCharts.size() != scene.triangles.size())
+            throw InputError("the light field belongs to another scene: bake this one");
+        const RoomGeometry room = makeRoomGeometry(scene, field);
+        if (!room.mirrorCharts.empty() && field.radiance.empty())
+            throw InputError(
+                "the light field holds no radiance of mirrors to look up: bake with radiance "
+                "directions");
+        loadGeometry(room);
+        loadRadiance(field, packRadiance(field.radiance, room.mirrorCharts));
+        atlas = makeAtlasTexture(field.atlas);
+        updateIrradiance(field.atlas);
+        viewBuffer = makeBuffer(nullptr, sizeof(ViewData), GL_DYNAMIC_STORAGE_BIT);
+        memory.atlas = 4 * field.atlas.irradiance.size();
+        memory.textures = textures.bytes();
+    }
+
+    void loadGeometry(const RoomGeometry& room) {
+        batches = room.batches;
+        vertices = makeBuffer(room.vertices.data(), room.vertices.size() * sizeof(RoomVertex));
+        indices = makeBuffer(room.indices.data(), room.indices.size() * sizeof(std::uint32_t));
+        vertexArray = makeRoomVertexArray(vertices, indices);
+        for (const RoomBatch& batch : batches)
+            materialBuffers.push_back(makeBuffer(&batch.data, sizeof batch.data));
+        memory.geometry = room.vertices.size() * sizeof(RoomVertex) + 4 * room.indices.size();
+    }
+
+    void loadRadiance(const LightField& field, const PackedRadiance& packed) {
+        requireLimit(packed.elements.size(), GL_MAX_TEXTURE_BUFFER_SIZE,
+                     "the number of elements of the radiance field");
+        requireLimit(packed.records.size(), GL_MAX_TEXTURE_BUFFER_SIZE,
+                     "the number of mirrors times directions");
+        elements = makeBuffer(packed.elements.data(), 4 * packed.elements.size());
+        records = makeBuffer(packed.records.data(), sizeof(RadianceRecord) * packed.records.size());
+        elementTexture = makeBufferTexture(elements, GL_R32UI);
+        recordTexture = makeBufferTexture(records, GL_RGBA32UI);
+        const RadianceField& r = field.radiance;
+        const float diameter = 2 * field.frame.radius;
+        viewData.fieldFrame = Vec4(field.frame.centre, static_cast<float>(r.cells - 1) / diameter);
+        viewData.field = {std::sqrt(0.5f * static_cast<float>(r.lines - 1)), r.lines,
+                          0.5f * static_cast<float>(r.cells - 1),
+                          kTolerance * diameter / static_cast<float>(std::max(r.cells, 1))};
+        viewData.elementCode = {packed.longestDistance, packed.log2Smallest, packed.log2Step, 0};
+        memory.radiance =
+            4 * packed.elements.size() + sizeof(RadianceRecord) * packed.records.size();
+        memory.radianceElements = packed.elements.size();
+    }
+
+    void updateIrradiance(const IrradianceAtlas& light) {
+        std::vector<std::uint32_t> packed(light.irradiance.size());
+        std::transform(light.irradiance.begin(), light.irradiance.end(), packed.begin(),
+                       packRgb9e5);
+        glTextureSubImage2D(atlas.id(), 0, 0, 0, static_cast<GLsizei>(light.width),
+                            static_cast<GLsizei>(light.height), GL_RGB, GL_UNSIGNED_INT_5_9_9_9_REV,
+                            packed.data());
+    }
+
+    GLuint program(const Variant& variant) {
+        Program& p = programs[variant];
+        if (!p) p = shaders.program("surface", variant.defines());
+        return p.id();
+    }
+
+    Variant variantOf(const RoomBatch& batch, const RenderSettings& settings) const {
+        Variant v;
+        v.diffuseMap = materials[batch.material].diffuseTexture >= 0;
+        v.emission = maxComponent(Vec3(batch.data.emission)) > 0;
+        v.mirror = batch.mirror;
+        v.plain = batch.mirror && settings.lookup == LookupKind::plain;
+        return v;
+    }
+
+    void draw(const View& view, const RenderSettings& settings, GLuint framebuffer) {
+        const StateGuard guard;
+        viewData.clipFromWorld = view.clipFromWorld;
+        viewData.eye = Vec4(view.eye, 1);
+        viewData.tone = {std::exp2(settings.exposure), outputKind(settings), 0, 0};
+        glNamedBufferSubData(viewBuffer.id(), 0, sizeof viewData, &viewData);
+        prepare(view, framebuffer);
+        for (std::size_t i = 0; i < batches.size(); ++i) drawBatch(i, settings);
+    }
+
+    static float outputKind(const RenderSettings& settings) {
+        if (!settings.tone) return kWriteRadiance;
+        return *settings.tone == ToneCurve::filmic ? kWriteFilmic : kWriteClamped;
+    }
+
+    void prepare(const View& view, GLuint framebuffer) {
+        glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+        glViewport(view.x, view.y, view.width, view.height);
+        glScissor(view.x, view.y, view.width, view.height);
+        glEnable(GL_SCISSOR_TEST);
+        for (const GLenum off :
+             {GL_BLEND, GL_STENCIL_TEST, GL_FRAMEBUFFER_SRGB, GL_POLYGON_OFFSET_FILL})
+            glDisable(off);
+        glEnable(GL_DEPTH_TEST);
+        glDepthFunc(GL_LEQUAL);
+        glDepthMask(GL_TRUE);
+        glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+        glFrontFace(GL_CCW);
+        glCullFace(GL_BACK);
+        glClearColor(0, 0, 0, 1);
+        glClearDepthf(1);
+        glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+        glBindVertexArray(vertexArray.id());
+        glBindBufferBase(GL_UNIFORM_BUFFER, kViewBlock, viewBuffer.id());
+        for (int unit = 0; unit < kUnits; ++unit) glBindSampler(static_cast<GLuint>(unit), 0);
+        glBindTextureUnit(kIrradianceUnit, atlas.id());
+        glBindTextureUnit(kElementUnit, elementTexture.id());
+        glBindTextureUnit(kRecordUnit, recordTexture.id());
+    }
+
+    void drawBatch(std::size_t i, const RenderSettings& settings) {
+        const RoomBatch& batch = batches[i];
+        const Material& material = materials[batch.material];
+        glUseProgram(program(variantOf(batch, settings)));
+        (batch.cull ? glEnable : glDisable)(GL_CULL_FACE);
+        textures.bind(kDiffuseUnit, material.diffuseTexture);
+        textures.bind(kEmissionUnit, material.emissionTexture);
+        glBindBufferBase(GL_UNIFORM_BUFFER, kMaterialBlock, materialBuffers[i].id());
+        glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(batch.indexCount), GL_UNSIGNED_INT,
+                       reinterpret_cast<const void*>(4 * std::size_t{batch.firstIndex}));
+    }
+
+    ShaderLibrary shaders;
+    SceneTextures textures;
+    std::vector<Material> materials;
+    std::vector<RoomBatch> batches;
+    std::map<Variant, Program> programs;
+    Buffer vertices, indices, elements, records, viewBuffer;
+    std::vector<Buffer> materialBuffers;  ///< of each batch
+    VertexArray vertexArray;
+    TextureObject atlas, elementTexture, recordTexture;
+    ViewData viewData{};
+    GpuMemory memory;
+};
+
+Renderer::Renderer(const Scene& scene, const LightField& field, const RendererOptions& options)
+    : impl_(std::make_unique<Impl>(scene, field, options)) {}
+Renderer::~Renderer() = default;
+Renderer::Renderer(Renderer&&) noexcept = default;
+Renderer& Renderer::operator=(Renderer&&) noexcept = default;
+
+void Renderer::draw(const View& view, const RenderSettings& settings, unsigned framebuffer) {
+    impl_->draw(view, settings, framebuffer);
+}
+
+void Renderer::updateIrradiance(const IrradianceAtlas& atlas) {
+    impl_->updateIrradiance(atlas);
+}
+
+const GpuMemory& Renderer::memory() const {
+    return impl_->memory;
+}
+
+}  // namespace vlf

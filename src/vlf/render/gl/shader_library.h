@@ -1,0 +1,36 @@
+#pragma once
+// Programs from shader files: built in, or from a folder that overrides them.
+
+#include "vlf/render/gl/gl_object.h"
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace vlf::gl {
+
+/// Names and values of the #defines that make a variant of a shader.
+using Defines = std::map<std::string, std::string>;
+
+class ShaderLibrary {
+  public:
+    /// Files in `folder` are used in place of the built-in ones of the same name; empty: none.
+    explicit ShaderLibrary(std::string folder = {}) : folder_(std::move(folder)) {}
+
+    /// The program of NAME.vert and NAME.frag. Throws InputError with the driver's message, in
+    /// which lines are named by file.
+    Program program(const std::string& name, const Defines& defines) const;
+
+  private:
+    Shader shader(GLenum stage, const std::string& file, const Defines& defines) const;
+    std::string source(const std::string& file) const;
+    std::string expand(const std::string& file, const Defines& defines,
+                       std::vector<std::string>& files) const;
+
+    std::string folder_;
+};
+
+/// Built-in shader files by name.
+const std::map<std::string, std::string>& builtInShaders();
+
+}  // namespace vlf::gl

@@ -1,0 +1,41 @@
+// A surface of the baked room: what it emits, the light of the irradiance atlas it reflects, and
+// what is seen in it where it is a mirror.
+#include "shared.h"
+#include "view.glsl"
+#include "tone_map.glsl"
+
+layout(binding = kIrradianceUnit) uniform sampler2D irradianceAtlas;
+layout(binding = kDiffuseUnit) uniform sampler2D diffuseMap;
+layout(binding = kEmissionUnit) uniform sampler2D emissionMap;
+layout(binding = kMirrorUnit) uniform sampler2D mirrorMap;
+
+in vec2 uv;
+in vec2 atlasUv;
+#ifdef MIRROR
+in vec3 position;
+in vec3 normal;
+flat in vec3 geometricNormal;
+flat in uint mirror;
+#include MIRROR
+#endif
+
+out vec4 color;
+
+void main() {
+    if (material.flags.x != 0 && !gl_FrontFacing) {
+        color = vec4(0, 0, 0, 1);
+        return;
+    }
+    vec3 diffuse = material.diffuse.rgb;
+#ifdef DIFFUSE_MAP
+    diffuse *= texture(diffuseMap, uv).rgb;
+#endif
+    vec3 radiance = diffuse * texture(irradianceAtlas, atlasUv).rgb * 0.318309886;
+#ifdef EMISSION
+    radiance += material.emission.rgb * texture(emissionMap, uv).rgb;
+#endif
+#ifdef MIRROR
+    radiance += mirrorRadiance();
+#endif
+    color = outputColor(radiance);
+}

@@ -1,0 +1,17 @@
+#pragma once
+// Still pictures by OpenGL.
+
+#include "vlf/base/progress.h"
+#include "vlf/image/image.h"
+#include "vlf/render/cpu/still.h"
+#include "vlf/render/gl/renderer.h"
+
+namespace vlf {
+
+/// As renderStill of render/cpu, by a renderer in the current context. The picture is the mean of
+/// antialias² of them, shifted by parts of a pixel; no ray is traced. Throws InputError if the mode
+/// is not `field`, the camera has no view or a number is out of range, and Cancelled.
+Image renderStill(Renderer& renderer, const Scene& scene, const StillParams& params,
+                  Progress& progress, StillReport* report = nullptr);
+
+}  // namespace vlf
