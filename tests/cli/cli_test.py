@@ -73,6 +73,19 @@ class Help(Case):
 
 
 class Pipeline(Case):
+    def test_both_backends_draw_the_same_picture(self):
+        self.bake("room.vlf")
+        for backend in ["cpu", "gl"]:
+            self.run_vlf("render", "room.vlf", "--mode", "field", "--backend", backend, "--size",
+                         "160x120", "-o", f"{backend}.exr")
+        self.run_vlf("compare", "gl.exr", "cpu.exr", "--exposure", "auto", "--json", "c.json")
+        self.assertLess(self.json("c.json")["flip"], 0.01)
+
+    def test_opengl_says_which_mode_it_draws(self):
+        self.bake("room.vlf")
+        self.run_vlf("render", "room.vlf", "--backend", "gl", "-o", "a.png", code=BAD_INPUT,
+                     says=["mode field", "--backend cpu"])
+
     def test_from_scene_to_comparison(self):
         self.run_vlf("bake", "cornell.obj", "-o", "room.vlf", "--preset", "draft", "--json",
                      "bake.json")

@@ -35,10 +35,8 @@ const std::map<std::string, std::set<std::string>> kArrows{
 
 /// Libraries that one module alone may use, so that they can be exchanged.
 const std::map<std::string, std::string> kOwners{
-    {"tbb", "base"},          {"oneapi", "base"},
-    {"embree3", "trace"},     {"embree4", "trace"},
-    {"hwy", "propagate"},     {"zstd.h", "io"},
-    {"tiny_gltf.h", "scene"},
+    {"tbb", "base"},      {"oneapi", "base"}, {"embree3", "trace"},     {"embree4", "trace"},
+    {"hwy", "propagate"}, {"zstd.h", "io"},   {"tiny_gltf.h", "scene"}, {"epoxy", "render"},
 };
 
 struct SourceFile {

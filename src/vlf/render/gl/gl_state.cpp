@@ -16,6 +16,7 @@ StateGuard::StateGuard() {
         glGetIntegeri_v(GL_UNIFORM_BUFFER_BINDING, static_cast<GLuint>(i), &uniformBuffers_[i]);
     glGetIntegerv(GL_UNIFORM_BUFFER_BINDING, &uniformBuffer_);
     glGetIntegerv(GL_VIEWPORT, viewport_.data());
+    glGetIntegerv(GL_SCISSOR_BOX, scissor_.data());
     glGetBooleanv(GL_COLOR_WRITEMASK, colorMask_.data());
     glGetFloatv(GL_COLOR_CLEAR_VALUE, clearColor_.data());
     glGetFloatv(GL_DEPTH_CLEAR_VALUE, &clearDepth_);
@@ -45,6 +46,7 @@ StateGuard::~StateGuard() {
                          static_cast<GLuint>(uniformBuffers_[i]));
     glBindBuffer(GL_UNIFORM_BUFFER, static_cast<GLuint>(uniformBuffer_));
     glViewport(viewport_[0], viewport_[1], viewport_[2], viewport_[3]);
+    glScissor(scissor_[0], scissor_[1], scissor_[2], scissor_[3]);
     glColorMask(colorMask_[0], colorMask_[1], colorMask_[2], colorMask_[3]);
     glClearColor(clearColor_[0], clearColor_[1], clearColor_[2], clearColor_[3]);
     glClearDepthf(clearDepth_);

@@ -2,7 +2,6 @@
 
 #include "vlf/base/error.h"
 #include "vlf/base/parallel.h"
-#include "vlf/math/random.h"
 #include "vlf/render/gl/shaders/shared.h"
 
 #include <algorithm>
@@ -88,47 +87,67 @@ float sumOf(const Vec3& rgb) {
     return rgb.x + rgb.y + rgb.z;
 }
 
-/// Sets the ranges that the codes span.
-void findRanges(const RadianceField& field, PackedRadiance& packed) {
-    std::uint16_t longest = 1;
-    float largest = 0;
-    for (const RadianceElement& e : field.elements) {
-        longest = std::max(longest, e.distance);
-        if (e.distance > 0) largest = std::max(largest, sumOf(unpackRgb9e5(e.rgb9e5())));
+struct Range {
+    float lower = std::numeric_limits<float>::max(), upper = std::numeric_limits<float>::lowest();
+
+    void add(float v) {
+        lower = std::min(lower, v);
+        upper = std::max(upper, v);
     }
+    /// Codes from `least` to `largest` over the range.
+    LinearCode code(int least, int largest) const {
+        if (lower > upper) return {0, 1};
+        const float step = std::max((upper - lower) / static_cast<float>(largest - least), 1e-6f);
+        return {lower - static_cast<float>(least) * step, step};
+    }
+};
+
+void findCodes(const RadianceField& field, PackedRadiance& packed) {
     // What is darker than this beside the brightest cannot be seen in one picture with it.
-    constexpr float kOctaves = 16;
+    constexpr float kMostOctaves = 16;
+    std::uint16_t longest = 1;
+    Range logSum, red, blue;
+    for (const RadianceElement& e : field.elements) {
+        if (e.distance == 0) continue;
+        longest = std::max(longest, e.distance);
+        const Vec3 rgb = unpackRgb9e5(e.rgb9e5());
+        const float sum = sumOf(rgb);
+        if (sum <= 0) continue;
+        logSum.add(std::log2(sum));
+        red.add(rgb.x / sum);
+        blue.add(rgb.z / sum);
+    }
+    logSum.lower = std::max(logSum.lower, logSum.upper - kMostOctaves);
     packed.longestDistance = field.maxDistance * static_cast<float>(longest) / 65535;
-    packed.log2Step = kOctaves / kSums;
-    packed.log2Smallest = std::log2(std::max(largest, 1e-20f)) - kOctaves;
+    packed.logSum = logSum.code(1, kSums);
+    packed.red = red.code(0, kShares);
+    packed.blue = blue.code(0, kShares);
 }
 
-std::uint32_t rounded(float v, int largest, float dither) {
-    return static_cast<std::uint32_t>(std::clamp(std::floor(v + dither), 0.0f, float(largest)));
+std::uint32_t encode(float v, const LinearCode& code, int least, int largest) {
+    const float c = std::round((v - code.first) / code.step);
+    return static_cast<std::uint32_t>(
+        std::clamp(c, static_cast<float>(least), static_cast<float>(largest)));
 }
 
-/// Rounding is at random, so that the mean of neighbouring elements has no bias and no bands.
 std::uint32_t pack(const RadianceElement& e, const RadianceField& field,
-                   const PackedRadiance& packed, RandomStream& random) {
+                   const PackedRadiance& packed) {
     const float metres = field.maxDistance * static_cast<float>(e.distance) / 65535;
     const std::uint32_t distance =
-        std::max(1u, rounded(metres / packed.longestDistance * kDistances, kDistances, 0.5f));
+        encode(metres, {0, packed.longestDistance / kDistances}, 1, kDistances);
     const Vec3 rgb = unpackRgb9e5(e.rgb9e5());
     const float sum = sumOf(rgb);
     if (sum <= 0) return distance;
-    const float code = (std::log2(sum) - packed.log2Smallest) / packed.log2Step;
-    const std::uint32_t sumCode = rounded(code, kSums, random.next());
-    const std::uint32_t red = rounded(rgb.x / sum * kShares, kShares, random.next());
-    const std::uint32_t blue = rounded(rgb.z / sum * kShares, kShares, random.next());
-    return distance | sumCode << shared::kDistanceBits |
-           red << (shared::kDistanceBits + shared::kSumBits) |
-           blue << (shared::kDistanceBits + shared::kSumBits + shared::kShareBits);
+    return distance | encode(std::log2(sum), packed.logSum, 1, kSums) << shared::kDistanceBits |
+           encode(rgb.x / sum, packed.red, 0, kShares)
+               << (shared::kDistanceBits + shared::kSumBits) |
+           encode(rgb.z / sum, packed.blue, 0, kShares)
+               << (shared::kDistanceBits + shared::kSumBits + shared::kShareBits);
 }
 
 void fill(const RadianceField& field, std::uint32_t direction, std::uint32_t chart,
           const RadianceRecord& record, PackedRadiance& packed) {
     const auto rows = field.rowsOf(direction, chart);
-    RandomStream random(chart, direction);
     for (int y = 0; y < record.height; ++y)
         for (int x = 0; x < record.width; ++x) {
             const int column = record.x - 0x8000 + shift(record.shear, y) + x;
@@ -136,7 +155,7 @@ void fill(const RadianceField& field, std::uint32_t direction, std::uint32_t cha
             if (!e || e->distance == 0) continue;
             const std::size_t i =
                 std::size_t{record.firstElement} + static_cast<std::size_t>(y) * record.width + x;
-            packed.elements[i] = pack(*e, field, packed, random);
+            packed.elements[i] = pack(*e, field, packed);
         }
 }
 
@@ -164,7 +183,7 @@ PackedRadiance packRadiance(const RadianceField& field, const std::vector<std::u
             "the radiance field holds too many elements to be shown: bake it with "
             "fewer --radiance-cells");
     packed.elements.assign(next, 0);
-    findRanges(field, packed);
+    findCodes(field, packed);
     parallelFor(packed.records.size(), 16, [&](std::size_t i) {
         fill(field, directionOf(i), chartOf(i), packed.records[i], packed);
     });

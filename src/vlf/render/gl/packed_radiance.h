@@ -4,7 +4,8 @@
 //
 // The cells in which a direction shows a chart are stored as a sheared rectangle: row y of it
 // starts at x + ⌊shear · y⌋. The projection of a wall mirror is a parallelogram, which this holds
-// without waste. An element is coded as shaders/shared.h says.
+// without waste. An element is coded as shaders/shared.h says, each
+// of its parts over the range that it has in the field.
 
 #include "vlf/field/light_field.h"
 
@@ -22,12 +23,17 @@ struct RadianceRecord {
 };
 static_assert(sizeof(RadianceRecord) == 16);
 
+/// Code c stands for first + c · step.
+struct LinearCode {
+    float first = 0, step = 0;
+};
+
 struct PackedRadiance {
     std::vector<std::uint32_t> elements;
-    std::vector<RadianceRecord> records;   ///< chart by chart, one per oriented direction
-    float longestDistance = 0;             ///< metres
-    float log2Smallest = 0, log2Step = 0;  ///< of the sum of red, green and blue; code 1 is one
-                                           ///< step above the smallest
+    std::vector<RadianceRecord> records;  ///< chart by chart, one per oriented direction
+    float longestDistance = 0;            ///< metres
+    LinearCode logSum;                    ///< log2 of the sum of red, green and blue
+    LinearCode red, blue;                 ///< their shares in the sum
 };
 
 /// `charts` are the mirror charts in the order of their records. Throws InputError if the field

@@ -33,12 +33,9 @@ VertexArray makeRoomVertexArray(const Buffer& vertices, const Buffer& indices) {
         glVertexArrayAttribFormat(id, attribute, count, GL_FLOAT, GL_FALSE,
                                   static_cast<GLuint>(offset));
     };
-    const auto octahedral = [&](GLuint attribute, std::size_t offset) {
-        glVertexArrayAttribFormat(id, attribute, 2, GL_SHORT, GL_TRUE, static_cast<GLuint>(offset));
-    };
     floats(kPositionAttribute, 3, offsetof(RoomVertex, position));
-    octahedral(kNormalAttribute, offsetof(RoomVertex, normal));
-    octahedral(kGeometricNormalAttribute, offsetof(RoomVertex, geometricNormal));
+    glVertexArrayAttribFormat(id, kGeometricNormalAttribute, 2, GL_SHORT, GL_TRUE,
+                              offsetof(RoomVertex, geometricNormal));
     floats(kUvAttribute, 2, offsetof(RoomVertex, uv));
     floats(kAtlasUvAttribute, 2, offsetof(RoomVertex, atlasUv));
     glVertexArrayAttribIFormat(id, kMirrorAttribute, 1, GL_UNSIGNED_INT,
@@ -132,7 +129,9 @@ struct Renderer::Impl {
         viewData.field = {std::sqrt(0.5f * static_cast<float>(r.lines - 1)), r.lines,
                           0.5f * static_cast<float>(r.cells - 1),
                           kTolerance * diameter / static_cast<float>(std::max(r.cells, 1))};
-        viewData.elementCode = {packed.longestDistance, packed.log2Smallest, packed.log2Step, 0};
+        viewData.elementCode = {packed.longestDistance, packed.logSum.first, packed.logSum.step, 0};
+        viewData.shareCode = {packed.red.first, packed.red.step, packed.blue.first,
+                              packed.blue.step};
         memory.radiance =
             4 * packed.elements.size() + sizeof(RadianceRecord) * packed.records.size();
         memory.radianceElements = packed.elements.size();
@@ -166,7 +165,8 @@ struct Renderer::Impl {
         const StateGuard guard;
         viewData.clipFromWorld = view.clipFromWorld;
         viewData.eye = Vec4(view.eye, 1);
-        viewData.tone = {std::exp2(settings.exposure), outputKind(settings), 0, 0};
+        viewData.tone = {std::exp2(settings.exposure), outputKind(settings), settings.textureBias,
+                         0};
         glNamedBufferSubData(viewBuffer.id(), 0, sizeof viewData, &viewData);
         prepare(view, framebuffer);
         for (std::size_t i = 0; i < batches.size(); ++i) drawBatch(i, settings);

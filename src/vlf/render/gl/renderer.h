@@ -23,6 +23,8 @@ struct RenderSettings {
     LookupKind lookup = LookupKind::depthCorrected;  ///< of mirrors
     std::optional<ToneCurve> tone =
         ToneCurve::filmic;  ///< none: writes radiance, for float targets
+    float textureBias = 0;  ///< added to the level of detail; negative: sharper, where pictures are
+                            ///< averaged
     float exposure = 0;     ///< EV, before the tone curve; tone-mapped colours are sRGB-encoded
 };
 

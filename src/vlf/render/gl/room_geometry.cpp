@@ -73,7 +73,6 @@ class GeometryMaker {
         const bool emits = first.front || material.emitsBothSides;
         const float lit = first.chart == kNoChart ? 0 : 1;
         batch.data.diffuse = Vec4(lit * material.diffuse, 0);
-        batch.data.mirror = Vec4(lit * material.mirror, 0);
         batch.data.emission = Vec4((emits ? lit : 0) * material.emission, 0);
         batch.data.flags = Vec4(first.cull ? 0 : 1, 0, 0, 0);
         batch.firstIndex = static_cast<std::uint32_t>(room_.indices.size());
@@ -107,9 +106,7 @@ class GeometryMaker {
                     Vec2(field_.atlas.width, field_.atlas.height);
         if (!mirror) return v;
         const float sign = side.front ? 1.0f : -1.0f;
-        const Vec3 flat = sign * geometricNormal(scene_, side.triangle);
-        v.geometricNormal = toOctahedron(flat);
-        v.normal = toOctahedron(chart.planar ? flat : sign * scene_.normals[vertex]);
+        v.geometricNormal = toOctahedron(sign * geometricNormal(scene_, side.triangle));
         v.mirror = mirrorOf_.at(side.chart);
         return v;
     }

@@ -77,6 +77,7 @@ Image renderStill(Renderer& renderer, const Scene& scene, const StillParams& par
     RenderSettings settings;
     settings.lookup = params.lookup;
     settings.tone.reset();
+    settings.textureBias = -std::log2(static_cast<float>(n));
     Image image(params.width, params.height);
     for (int i = 0; i < n * n; ++i) {
         progress.check();

@@ -9,7 +9,7 @@ float quarterTurns(float x, float z) {
 }
 
 struct Direction {
-    vec3 line;  // unit; upper half
+    vec3 vector;  // unit
     uint index;
 };
 
@@ -20,11 +20,10 @@ Direction directionOf(float ring, float position) {
     float horizontal = r * sqrt(2 - r * r);
     float phi = ring > 0 ? kQuarterTurn * position / ring : 0;
     Direction d;
-    d.line = vec3(horizontal * cos(phi), 1 - r * r, horizontal * sin(phi));
+    d.vector = vec3(horizontal * cos(phi), 1 - r * r, horizontal * sin(phi));
     float perRing = 4 * ring;
     float p = position < perRing ? position : position - perRing;
     bool opposite = ring == rings && p >= 2 * rings;
-    if (opposite) d.line = -d.line;
     float index = ring > 0 ? 1 + 2 * ring * (ring - 1) + p : 0;
     if (opposite) index += view.field.y - 2 * rings;
     d.index = uint(index + 0.5);
@@ -36,8 +35,9 @@ struct Triple {
     vec3 weight;
 };
 
-// The triangle around unit vector d of the upper half, with barycentric weights in the equal-area
-// map: continuous over the sphere, like those on the sphere itself.
+// The triangle around unit vector d of the upper half, and weights: d is parallel to the sum of
+// weight times corner. Edges are great circles on the sphere but not in the grid, so that d may lie
+// a little beyond an edge; the third weight is then 0.
 Triple tripleOf(vec3 d) {
     float rings = view.field.x;
     float ring = min(rings * sqrt(dot(d.xz, d.xz) / (1 + d.y)), rings);
@@ -58,7 +58,8 @@ Triple tripleOf(vec3 d) {
     t.corner[0] = directionOf(upper.x, upper.y);
     t.corner[1] = directionOf(second.x, second.y);
     t.corner[2] = directionOf(third.x, third.y);
-    t.weight = up ? vec3(1 - down, s, down - s) : vec3(1 - s, s - down, down);
-    t.weight = clamp(t.weight, 0, 1);
+    vec3 u = t.corner[0].vector - d, v = t.corner[1].vector - d, w = t.corner[2].vector - d;
+    t.weight = max(vec3(dot(d, cross(v, w)), dot(d, cross(w, u)), dot(d, cross(u, v))), 0);
+    t.weight /= max(dot(t.weight, vec3(1)), 1e-20);
     return t;
 }

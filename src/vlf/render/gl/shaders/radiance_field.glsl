@@ -33,21 +33,20 @@ vec3 radianceOf(uint element) {
     float sum = code == 0u ? 0 : exp2(view.elementCode.y + view.elementCode.z * float(code));
     vec2 share = vec2(bitfieldExtract(element, kDistanceBits + kSumBits, kShareBits),
                       bitfieldExtract(element, kDistanceBits + kSumBits + kShareBits, kShareBits));
-    share *= 1.0 / float((1 << kShareBits) - 1);
+    share = view.shareCode.xz + share * view.shareCode.yw;
     return sum * vec3(share.x, max(1 - share.x - share.y, 0), share.y);
 }
 
 Sight sightOf(Direction d, float weight, float sense, vec3 toEye) {
     Sight s;
-    float cosine = sense * dot(d.line, geometricNormal);
+    float cosine = sense * dot(d.vector, geometricNormal);
     uint index = d.index;
     uint lines = uint(view.field.y);
-    // The line of a point of the equator's other half is stored the other way round.
     if (sense < 0) index = index < lines ? index + lines : index - lines;
     s.record = texelFetch(records, int(mirror * 2u * lines + index));
     if (cosine < kMinCosine) s.record.z = 0u;
-    vec3 n = d.line;
-    if (d.index >= lines) n = -n;
+    // Both senses of a line share a subfield.
+    vec3 n = d.index >= lines ? -d.vector : d.vector;
     // frameFromNormal of math/frame.h
     float side = n.z < 0 ? -1 : 1;
     float a = -1 / (side + n.z), b = n.x * n.y * a;

@@ -1,40 +1,31 @@
+#pragma once
 // Read by C++ and GLSL: constants and structures that both sides must agree on.
-#ifndef VLF_RENDER_GL_SHARED_H
-#define VLF_RENDER_GL_SHARED_H
 
 #ifdef __cplusplus
 #include "vlf/math/vector.h"
-
-#include <cstdint>
 
 namespace vlf::shared {
 #define VLF_INT inline constexpr int
 using vec4 = Vec4;
 using mat4 = Mat4;
-using uint = std::uint32_t;
 #else
 #define VLF_INT const int
 #endif
 
 // Attributes of a vertex.
 VLF_INT kPositionAttribute = 0;
-VLF_INT kNormalAttribute = 1;           // octahedral
-VLF_INT kGeometricNormalAttribute = 2;  // octahedral
-VLF_INT kUvAttribute = 3;
-VLF_INT kAtlasUvAttribute = 4;
-VLF_INT kMirrorAttribute = 5;           // number of the mirror chart
+VLF_INT kGeometricNormalAttribute = 1;  // octahedral
+VLF_INT kUvAttribute = 2;
+VLF_INT kAtlasUvAttribute = 3;
+VLF_INT kMirrorAttribute = 4;  // number of the mirror chart
 
 // Texture units.
 VLF_INT kIrradianceUnit = 0;
 VLF_INT kDiffuseUnit = 1;
 VLF_INT kEmissionUnit = 2;
-VLF_INT kMirrorUnit = 3;
-VLF_INT kElementUnit = 4;  // elements of the radiance field
-VLF_INT kRecordUnit = 5;   // where they are
-VLF_INT kBvhNodeUnit = 6;
-VLF_INT kBvhTriangleUnit = 7;
-VLF_INT kSurfaceUnit = 8;  // of the triangles that reflections meet
-VLF_INT kUnits = 9;
+VLF_INT kElementUnit = 3;  // elements of the radiance field
+VLF_INT kRecordUnit = 4;   // where they are
+VLF_INT kUnits = 5;
 
 // Uniform blocks.
 VLF_INT kViewBlock = 0;
@@ -54,25 +45,23 @@ VLF_INT kWriteClamped = 2;
 // std140.
 struct ViewData {
     mat4 clipFromWorld;
-    vec4 eye;            // world; w: unused
-    vec4 tone;           // factor, kind of output (kWrite...)
-    vec4 fieldFrame;     // centre, cells a metre
-    vec4 field;          // rings of the direction set, lines, cells (minus 1) / 2, tolerance (metres)
-    vec4 elementCode;    // metres of the longest distance, log2 of the smallest sum, log2 of the
-                         // ratio of two neighbouring ones
+    vec4 eye;         // world; w: unused
+    vec4 tone;        // factor, kind of output (kWrite...), bias of the level of detail of textures
+    vec4 fieldFrame;  // centre, cells a metre
+    vec4 field;       // rings of the direction set, lines, cells (minus 1) / 2, tolerance (metres)
+    vec4 elementCode;  // metres of the longest distance, log2 of the sum at code 0, its step
+    vec4 shareCode;    // share of red at code 0, its step, and the same of blue
 };
 
 struct MaterialData {
     vec4 diffuse;   // reflectance
-    vec4 mirror;    // reflectance
     vec4 emission;  // W m^-2 sr^-1
     vec4 flags;     // x: whether the back is black
 };
 
 #ifdef __cplusplus
 #undef VLF_INT
-static_assert(sizeof(ViewData) == 64 + 5 * 16);
-static_assert(sizeof(MaterialData) == 4 * 16);
+static_assert(sizeof(ViewData) == 64 + 6 * 16);
+static_assert(sizeof(MaterialData) == 3 * 16);
 }  // namespace vlf::shared
-#endif
 #endif

@@ -7,13 +7,11 @@
 layout(binding = kIrradianceUnit) uniform sampler2D irradianceAtlas;
 layout(binding = kDiffuseUnit) uniform sampler2D diffuseMap;
 layout(binding = kEmissionUnit) uniform sampler2D emissionMap;
-layout(binding = kMirrorUnit) uniform sampler2D mirrorMap;
 
 in vec2 uv;
 in vec2 atlasUv;
 #ifdef MIRROR
 in vec3 position;
-in vec3 normal;
 flat in vec3 geometricNormal;
 flat in uint mirror;
 #include MIRROR
@@ -28,11 +26,11 @@ void main() {
     }
     vec3 diffuse = material.diffuse.rgb;
 #ifdef DIFFUSE_MAP
-    diffuse *= texture(diffuseMap, uv).rgb;
+    diffuse *= texture(diffuseMap, uv, view.tone.z).rgb;
 #endif
     vec3 radiance = diffuse * texture(irradianceAtlas, atlasUv).rgb * 0.318309886;
 #ifdef EMISSION
-    radiance += material.emission.rgb * texture(emissionMap, uv).rgb;
+    radiance += material.emission.rgb * texture(emissionMap, uv, view.tone.z).rgb;
 #endif
 #ifdef MIRROR
     radiance += mirrorRadiance();

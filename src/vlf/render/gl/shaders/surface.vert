@@ -6,12 +6,10 @@ layout(location = kPositionAttribute) in vec3 positionIn;
 layout(location = kUvAttribute) in vec2 uvIn;
 layout(location = kAtlasUvAttribute) in vec2 atlasUvIn;
 #ifdef MIRROR
-layout(location = kNormalAttribute) in vec2 normalIn;
 layout(location = kGeometricNormalAttribute) in vec2 geometricNormalIn;
 layout(location = kMirrorAttribute) in uint mirrorIn;
 
 out vec3 position;
-out vec3 normal;
 flat out vec3 geometricNormal;
 flat out uint mirror;
 
@@ -30,7 +28,6 @@ void main() {
     atlasUv = atlasUvIn;
 #ifdef MIRROR
     position = positionIn;
-    normal = fromOctahedron(normalIn);
     geometricNormal = fromOctahedron(geometricNormalIn);
     mirror = mirrorIn;
 #endif

@@ -1,0 +1,118 @@
+#include "vlf/render/gl/packed_radiance.h"
+
+#include "baked_example.h"
+#include "vlf/render/gl/room_geometry.h"
+#include "vlf/render/gl/shaders/shared.h"
+
+#include <gtest/gtest.h>
+
+namespace vlf::test {
+
+namespace {
+
+using namespace shared;
+
+std::uint32_t bits(std::uint32_t element, int first, int count) {
+    return element >> first & ((1u << count) - 1);
+}
+
+/// As the shader finds an element.
+std::uint32_t elementAt(const PackedRadiance& packed, const RadianceRecord& r, int x, int y) {
+    const int row = y - r.y;
+    const int column =
+        x - r.x + 0x8000 - static_cast<int>(std::floor(r.shear * static_cast<float>(row)));
+    if (row < 0 || row >= r.height || column < 0 || column >= r.width) return 0;
+    return packed.elements[r.firstElement + static_cast<std::size_t>(row) * r.width + column];
+}
+
+Vec3 radianceOf(const PackedRadiance& packed, std::uint32_t element) {
+    const std::uint32_t code = bits(element, kDistanceBits, kSumBits);
+    if (code == 0) return Vec3(0);
+    const auto value = [&](const LinearCode& c, std::uint32_t i) {
+        return c.first + c.step * static_cast<float>(i);
+    };
+    const float sum = std::exp2(value(packed.logSum, code));
+    const float red = value(packed.red, bits(element, kDistanceBits + kSumBits, kShareBits));
+    const float blue =
+        value(packed.blue, bits(element, kDistanceBits + kSumBits + kShareBits, kShareBits));
+    return sum * Vec3(red, std::max(1 - red - blue, 0.0f), blue);
+}
+
+struct Packed {
+    const RadianceField& field = mirrorRoom().field.radiance;
+    std::vector<std::uint32_t> charts =
+        makeRoomGeometry(mirrorRoom().scene, mirrorRoom().field).mirrorCharts;
+    PackedRadiance radiance = packRadiance(field, charts);
+
+    /// Calls visit(element of the field, packed element, whether the field has it).
+    template <class Visit>
+    void forEveryCell(Visit visit) const {
+        for (std::size_t c = 0; c < charts.size(); ++c)
+            for (std::uint32_t d = 0; d < 2u * field.lines; d += 37) {
+                const auto rows = field.rowsOf(d, charts[c]);
+                const RadianceRecord& record = radiance.records[c * 2 * field.lines + d];
+                for (int y = 0; y < field.cells; ++y)
+                    for (int x = 0; x < field.cells; ++x) {
+                        const RadianceElement* e = field.element(rows, x, y);
+                        visit(e && e->distance > 0 ? e : nullptr,
+                              elementAt(radiance, record, x, y));
+                    }
+            }
+    }
+};
+
+}  // namespace
+
+TEST(PackedRadiance, HoldsTheCellsOfTheFieldAndNoOthers) {
+    std::size_t cells = 0;
+    Packed().forEveryCell([&](const RadianceElement* e, std::uint32_t packed) {
+        ASSERT_EQ(e != nullptr, packed != 0);
+        cells += e != nullptr;
+    });
+    EXPECT_GT(cells, 10000u);
+}
+
+TEST(PackedRadiance, KeepsDistancesToAHalfThousandthOfTheLongest) {
+    const Packed packed;
+    packed.forEveryCell([&](const RadianceElement* e, std::uint32_t element) {
+        if (!e) return;
+        const float longest = packed.radiance.longestDistance;
+        const float distance = packed.field.maxDistance * e->distance / 65535;
+        const float stored = longest * bits(element, 0, kDistanceBits) / ((1 << kDistanceBits) - 1);
+        ASSERT_NEAR(stored, distance, longest / 2000);
+    });
+}
+
+TEST(PackedRadiance, KeepsRadianceToAPerCentAndEachElementToTwo) {
+    const Packed packed;
+    glm::dvec3 sum(0), stored(0);
+    double largestError = 0;
+    packed.forEveryCell([&](const RadianceElement* e, std::uint32_t element) {
+        if (!e) return;
+        const Vec3 exact = unpackRgb9e5(e->rgb9e5()), code = radianceOf(packed.radiance, element);
+        sum += glm::dvec3(exact);
+        stored += glm::dvec3(code);
+        const double scale = exact.x + exact.y + exact.z;
+        if (scale > 1e-3)
+            largestError = std::max(largestError, maxComponent(glm::abs(code - exact)) / scale);
+    });
+    for (int i = 0; i < 3; ++i) EXPECT_NEAR(stored[i] / sum[i], 1, 1e-2);
+    EXPECT_LT(largestError, 0.02);
+}
+
+TEST(PackedRadiance, TakesFourBytesAndHardlyMoreElementsThanThereAre) {
+    const Packed packed;
+    const auto filled = std::count_if(packed.field.elements.begin(), packed.field.elements.end(),
+                                      [](const RadianceElement& e) { return e.distance > 0; });
+    const double bytes = 4.0 * static_cast<double>(packed.radiance.elements.size()) +
+                         16.0 * static_cast<double>(packed.radiance.records.size());
+    EXPECT_LE(bytes / static_cast<double>(filled), 6) << bytes;
+}
+
+TEST(PackedRadiance, OfNoFieldIsEmpty) {
+    const PackedRadiance packed = packRadiance({}, {});
+    EXPECT_TRUE(packed.elements.empty());
+    EXPECT_TRUE(packed.records.empty());
+}
+
+}  // namespace vlf::test
