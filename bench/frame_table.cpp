@@ -1,0 +1,111 @@
+// Frame times of the OpenGL renderer against a plain textured rasterisation of the same views.
+// frame_table FIELD [--camera NAME] [--size WxH] [--frames N]: one line per way of drawing.
+
+#include "vlf/io/field_file.h"
+#include "vlf/render/gl/gl_object.h"
+#include "vlf/render/gl/headless_context.h"
+#include "vlf/render/gl/renderer.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+namespace {
+
+using namespace vlf;
+
+struct Options {
+    std::string field, camera;
+    int width = 1024, height = 768, frames = 60;
+};
+
+struct Target {
+    gl::TextureObject color = gl::makeTexture(GL_TEXTURE_2D);
+    gl::TextureObject depth = gl::makeTexture(GL_TEXTURE_2D);
+    gl::Framebuffer framebuffer = gl::makeFramebuffer();
+
+    Target(int width, int height) {
+        glTextureStorage2D(color.id(), 1, GL_RGBA8, width, height);
+        glTextureStorage2D(depth.id(), 1, GL_DEPTH_COMPONENT24, width, height);
+        glNamedFramebufferTexture(framebuffer.id(), GL_COLOR_ATTACHMENT0, color.id(), 0);
+        glNamedFramebufferTexture(framebuffer.id(), GL_DEPTH_ATTACHMENT, depth.id(), 0);
+    }
+};
+
+/// Mirrors become diffuse surfaces: what is left is the atlas as a texture, nothing else.
+BakedRoom withoutMirrors(BakedRoom room) {
+    for (Material& material : room.scene.materials) material.mirror = Vec3(0);
+    room.field.radiance = {};
+    return room;
+}
+
+double percentile(std::vector<double> values, double part) {
+    std::sort(values.begin(), values.end());
+    return values[static_cast<std::size_t>(part * static_cast<double>(values.size() - 1))];
+}
+
+struct Way {
+    const char* name;
+    Renderer& renderer;
+    RenderSettings settings;
+    std::vector<double> milliseconds;
+};
+
+void drawFrames(const Options& options, const BakedRoom& room, const Camera& camera,
+                std::vector<Way>& ways) {
+    const Target target(options.width, options.height);
+    const float nearest = 1e-3f * room.field.frame.radius;
+    const View view = viewOf(camera, options.width, options.height, nearest);
+    // In turns, so that whatever else the machine does weighs on all alike.
+    for (int frame = -3; frame < options.frames; ++frame)
+        for (Way& way : ways) {
+            const auto start = std::chrono::steady_clock::now();
+            way.renderer.draw(view, way.settings, target.framebuffer.id());
+            glFinish();
+            const std::chrono::duration<double, std::milli> time =
+                std::chrono::steady_clock::now() - start;
+            if (frame >= 0) way.milliseconds.push_back(time.count());
+        }
+}
+
+void measure(const Options& options, const BakedRoom& room, const Camera& camera) {
+    const BakedRoom plainRoom = withoutMirrors(room);
+    Renderer renderer(room.scene, room.field), plain(plainRoom.scene, plainRoom.field);
+    RenderSettings raster;
+    raster.tone = ToneCurve::clamp;
+    RenderSettings plainLookup;
+    plainLookup.lookup = LookupKind::plain;
+    std::vector<Way> ways{{"mirrors as walls", plain, raster, {}},
+                          {"field, plain", renderer, plainLookup, {}},
+                          {"field, depth", renderer, {}, {}}};
+    drawFrames(options, room, camera, ways);
+    const double base = percentile(ways[0].milliseconds, 0.5);
+    for (const Way& way : ways) {
+        const double median = percentile(way.milliseconds, 0.5);
+        std::printf("%-12s %-18s %7.2f ms %6.1f fps %5.2fx  p99/median %.2f\n", camera.name.c_str(),
+                    way.name, median, 1000 / median, median / base,
+                    percentile(way.milliseconds, 0.99) / median);
+    }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    Options options;
+    CLI::App app("Frame times of the OpenGL renderer");
+    app.add_option("field", options.field, "Field file (.vlf)")->required();
+    app.add_option("--camera", options.camera, "One camera (else all)");
+    app.add_option("--width", options.width);
+    app.add_option("--height", options.height);
+    app.add_option("--frames", options.frames);
+    CLI11_PARSE(app, argc, argv);
+    const BakedRoom room = readField(options.field);
+    const gl::HeadlessContext context;
+    for (const Camera& camera : room.scene.cameras)
+        if (options.camera.empty() || camera.name == options.camera) measure(options, room, camera);
+    return 0;
+}
