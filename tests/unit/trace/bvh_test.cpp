@@ -1,0 +1,215 @@
+#include "vlf/trace/bvh.h"
+
+#include "vlf/base/parallel.h"
+#include "vlf/math/random.h"
+#include "vlf/math/sampling.h"
+#include "vlf/scene/generate/generate.h"
+#include "vlf/trace/ray_scene.h"
+
+#include "support/bvh_search.h"
+
+#include <cstring>
+#include <numeric>
+
+#include <gtest/gtest.h>
+
+namespace vlf {
+namespace {
+
+constexpr int kRays = 20000;
+
+/// A scene of loose triangles, three vertices each.
+Scene looseTriangles(const std::vector<Vec3>& vertices) {
+    Scene scene;
+    scene.positions = vertices;
+    scene.normals.assign(vertices.size(), {0, 0, 1});
+    scene.uvs.assign(vertices.size(), Vec2(0));
+    scene.materials.resize(1);
+    for (std::uint32_t i = 0; i + 2 < vertices.size(); i += 3)
+        scene.triangles.push_back({{i, i + 1, i + 2}, 0});
+    return scene;
+}
+
+Scene copies(int count) {
+    std::vector<Vec3> vertices;
+    for (int i = 0; i < count; ++i)
+        vertices.insert(vertices.end(), {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
+    return looseTriangles(vertices);
+}
+
+/// Triangles whose size and distance from the origin halve from one to the next: splits by surface
+/// area take off a few at a time.
+Scene shrinkingTriangles(int sizes, int copiesOfEach) {
+    std::vector<Vec3> vertices;
+    for (int i = 0; i < sizes; ++i)
+        for (int k = 0; k < copiesOfEach; ++k) {
+            const float s = std::ldexp(1.0f, sizes / 2 - i);
+            vertices.insert(vertices.end(), {{s, 0, 0}, {s, s / 4, 0}, {s, 0, s / 4}});
+        }
+    return looseTriangles(vertices);
+}
+
+Ray randomRay(const Bounds& bounds, RandomStream& random) {
+    Ray ray;
+    const Vec3 u(random.next(), random.next(), random.next());
+    ray.origin = bounds.lower + u * bounds.size();
+    ray.direction = sampleUniformSphere(random.next2());
+    return ray;
+}
+
+/// The hits may be of two triangles only where both are met at the same distance. `epsilon` is how
+/// well a place in the scene is known: within it, distances differ by the rounding of coordinates.
+bool agree(const Hit& a, const Hit& b, float epsilon) {
+    if (!a || !b) return !a && !b;
+    return std::abs(a.t - b.t) <= epsilon + 1e-5f * std::max(a.t, b.t);
+}
+
+template <typename T>
+bool sameBits(const std::vector<T>& a, const std::vector<T>& b) {
+    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
+}
+
+void expectEachTriangleOnce(const Bvh& bvh, const Scene& scene) {
+    std::vector<int> in(bvh.triangles.size()), of(scene.triangles.size());
+    ASSERT_EQ(in.size(), of.size());
+    for (const BvhNode& node : bvh.nodes)
+        for (const BvhChild& child : node.child)
+            for (std::uint32_t i = 0; child.reference.isLeaf() && i < child.reference.count(); ++i)
+                ++in[child.reference.index() + i],
+                    ++of[bvh.triangles[child.reference.index() + i].sceneTriangle()];
+    EXPECT_EQ(in, std::vector<int>(in.size(), 1));
+    EXPECT_EQ(of, std::vector<int>(of.size(), 1));
+}
+
+/// Visits what is below a reference, expects all of it to lie in the box, and returns the number
+/// of inner nodes on the longest way down.
+int expectWithin(const Bvh& bvh, const BvhChild& box, const BvhReference& reference) {
+    const auto inside = [&](const Vec3& lower, const Vec3& upper) {
+        return glm::min(lower, box.lower) == box.lower && glm::max(upper, box.upper) == box.upper;
+    };
+    if (reference.isLeaf()) {
+        EXPECT_LE(reference.count(), Bvh::kMaxLeafSize);
+        for (std::uint32_t i = 0; i < reference.count(); ++i) {
+            const BvhTriangle& t = bvh.triangles[reference.index() + i];
+            for (const Vec3& v : {t.v0, t.v0 + t.e1, t.v0 + t.e2}) EXPECT_TRUE(inside(v, v));
+        }
+        return 0;
+    }
+    int below = 0;
+    for (const BvhChild& child : bvh.nodes[reference.index()].child) {
+        const bool empty = child.reference.isLeaf() && child.reference.count() == 0;
+        EXPECT_TRUE(empty || inside(child.lower, child.upper));
+        below = std::max(below, expectWithin(bvh, child, child.reference));
+    }
+    return below + 1;
+}
+
+void expectSound(const Bvh& bvh, const Scene& scene) {
+    expectEachTriangleOnce(bvh, scene);
+    BvhChild root;
+    root.lower = Vec3(std::numeric_limits<float>::lowest());
+    root.upper = Vec3(std::numeric_limits<float>::max());
+    root.reference.word = 1u << 30;
+    EXPECT_EQ(expectWithin(bvh, root, root.reference), bvh.depth);
+    EXPECT_LE(bvh.depth, Bvh::kMaxDepth);
+}
+
+class BvhOfScene : public testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(Generated, BvhOfScene,
+                         testing::Values("cornell", "mirror-room", "gallery", "office"),
+                         [](const auto& instance) {
+                             std::string name = instance.param;
+                             std::replace(name.begin(), name.end(), '-', '_');
+                             return name;
+                         });
+
+TEST_P(BvhOfScene, HoldsEveryTriangleOnceWithinItsBoxes) {
+    const Scene scene = generateScene(GetParam());
+    expectSound(buildBvh(scene), scene);
+}
+
+TEST_P(BvhOfScene, GivesTheHitsOfTheRayTracingKernels) {
+    const Scene scene = generateScene(GetParam());
+    const Bvh bvh = buildBvh(scene);
+    const RayScene kernels(scene);
+    const Bounds bounds = boundsOf(scene);
+    RandomStream random(1, 0);
+    int different = 0, otherTriangle = 0;
+    for (int i = 0; i < kRays; ++i) {
+        const Ray ray = randomRay(bounds, random);
+        const Hit hit = test::closest(bvh, ray), expected = kernels.closest(ray);
+        different += !agree(hit, expected, kernels.epsilon());
+        otherTriangle += hit.triangle != expected.triangle;
+    }
+    EXPECT_EQ(different, 0);
+    EXPECT_LE(otherTriangle, kRays / 1000);
+}
+
+TEST_P(BvhOfScene, IsTheSameForAnyNumberOfThreads) {
+    const Scene scene = generateScene(GetParam());
+    const Bvh first = buildBvh(scene);
+    for (int threads : {1, 2, 3, 8}) {
+        const ThreadLimit limit(threads);
+        const Bvh again = buildBvh(scene);
+        EXPECT_TRUE(sameBits(first.nodes, again.nodes)) << threads;
+        EXPECT_TRUE(sameBits(first.triangles, again.triangles)) << threads;
+    }
+}
+
+TEST(Bvh, NeverPutsAsideMoreThanItsDepth) {
+    const Scene scene = generateScene("mirror-room");
+    const Bvh bvh = buildBvh(scene);
+    RandomStream random(2, 0);
+    test::SearchCost cost;
+    for (int i = 0; i < kRays; ++i) test::closest(bvh, randomRay(boundsOf(scene), random), &cost);
+    EXPECT_LE(cost.deepest, bvh.depth);
+}
+
+TEST(Bvh, OfManyTrianglesInOnePlaceIsShallow) {
+    const Scene scene = copies(10000);
+    const Bvh bvh = buildBvh(scene);
+    expectSound(bvh, scene);
+    EXPECT_LE(bvh.depth, 16);
+    EXPECT_FLOAT_EQ(test::closest(bvh, {{0.2f, 0.2f, 2}, {0, 0, -1}}).t, 2);
+}
+
+TEST(Bvh, OfManyTrianglesInOnePlaceIsTheSameForAnyNumberOfThreads) {
+    const Scene scene = copies(10000);
+    const Bvh first = buildBvh(scene);
+    for (int threads : {1, 2, 8}) {
+        const ThreadLimit limit(threads);
+        EXPECT_TRUE(sameBits(first.triangles, buildBvh(scene).triangles)) << threads;
+    }
+}
+
+TEST(Bvh, KeepsItsDepthWhereSplitsTakeOffFewTriangles) {
+    const Scene scene = shrinkingTriangles(110, 2000);
+    const Bvh bvh = buildBvh(scene);
+    expectSound(bvh, scene);
+    EXPECT_GE(bvh.depth, Bvh::kMaxDepth - 2) << "the limit was not met, nothing was tested";
+}
+
+TEST(Bvh, OfOneTriangleHitsItAndMissesBesideIt) {
+    const Scene scene = copies(1);
+    const Bvh bvh = buildBvh(scene);
+    expectSound(bvh, scene);
+    const Hit hit = test::closest(bvh, {{0.25f, 0.5f, 1}, {0, 0, -2}});
+    EXPECT_EQ(hit.triangle, 0u);
+    EXPECT_FLOAT_EQ(hit.t, 0.5f);
+    EXPECT_FLOAT_EQ(hit.barycentric.x, 0.25f);
+    EXPECT_FLOAT_EQ(hit.barycentric.y, 0.5f);
+    EXPECT_FALSE(test::closest(bvh, {{0.75f, 0.5f, 1}, {0, 0, -1}}));
+    EXPECT_FALSE(test::closest(bvh, {{0.25f, 0.5f, 1}, {0, 0, 1}}));
+}
+
+TEST(Bvh, OfNothingMissesEverything) {
+    const Bvh bvh = buildBvh(Scene{});
+    EXPECT_EQ(bvh.nodes.size(), 1u);
+    EXPECT_TRUE(bvh.triangles.empty());
+    RandomStream random(3, 0);
+    for (int i = 0; i < 100; ++i)
+        EXPECT_FALSE(test::closest(bvh, randomRay({Vec3(-1), Vec3(1)}, random)));
+}
+
+}  // namespace
+}  // namespace vlf
