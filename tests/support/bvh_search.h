@@ -7,10 +7,7 @@
 #include <glm/common.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
-#include <utility>
 
 namespace vlf::test {
 
@@ -19,14 +16,14 @@ inline float safeReciprocal(float d) {
     return 1 / (std::abs(d) > 1e-20f ? d : std::copysign(1e-20f, d));
 }
 
-/// Distance at which the ray enters the child's box; infinity if it misses it within (tMin, tMax).
-inline float enterBox(const BvhChild& child, const Ray& ray, const Vec3& reciprocal, float tMax) {
-    const Vec3 a = (child.lower - ray.origin) * reciprocal;
-    const Vec3 b = (child.upper - ray.origin) * reciprocal;
+/// Whether the ray is in the box somewhere in (tMin, tMax).
+inline bool entersBox(const BvhNode& box, const Ray& ray, const Vec3& reciprocal, float tMax) {
+    const Vec3 a = (box.lower - ray.origin) * reciprocal;
+    const Vec3 b = (box.upper - ray.origin) * reciprocal;
     const Vec3 near = glm::min(a, b), far = glm::max(a, b);
     const float enter = std::max(std::max(near.x, near.y), std::max(near.z, ray.tMin));
     const float leave = std::min(std::min(far.x, far.y), std::min(far.z, tMax));
-    return enter <= leave ? enter : std::numeric_limits<float>::infinity();
+    return enter <= leave;
 }
 
 /// Möller and Trumbore, "Fast, minimum storage ray/triangle intersection", JGT 1997.
@@ -43,7 +40,7 @@ inline void hitTriangle(const BvhTriangle& triangle, const Ray& ray, Hit& hit) {
 }
 
 struct SearchCost {
-    int nodes = 0, triangles = 0, deepest = 0;  ///< `deepest`: references put aside at once
+    int boxes = 0, triangles = 0;
 };
 
 /// Closest hit in (tMin, tMax), and what it took.
@@ -54,29 +51,13 @@ inline Hit closest(const Bvh& bvh, const Ray& ray, SearchCost* cost = nullptr) {
                           safeReciprocal(ray.direction.z));
     Hit hit;
     hit.t = ray.tMax;
-    std::array<BvhReference, Bvh::kMaxDepth> aside;
-    int count = 0;
-    BvhReference current{1u << 30};
-    while (true) {
-        if (!current.isLeaf()) {
-            const BvhNode& node = bvh.nodes[current.index()];
-            ++spent.nodes;
-            const float left = enterBox(node.child[0], ray, reciprocal, hit.t);
-            const float right = enterBox(node.child[1], ray, reciprocal, hit.t);
-            BvhReference near = node.child[0].reference, far = node.child[1].reference;
-            if (right < left) std::swap(near, far);
-            if (std::isfinite(std::max(left, right))) aside[count++] = far;
-            spent.deepest = std::max(spent.deepest, count);
-            if (std::isfinite(std::min(left, right))) {
-                current = near;
-                continue;
-            }
-        } else {
-            for (std::uint32_t i = 0; i < current.count(); ++i, ++spent.triangles)
-                hitTriangle(bvh.triangles[current.index() + i], ray, hit);
-        }
-        if (count == 0) break;
-        current = aside[--count];
+    for (std::uint32_t at = 0; at < bvh.nodes.size();) {
+        const BvhNode& node = bvh.nodes[at];
+        ++spent.boxes;
+        const bool entered = entersBox(node, ray, reciprocal, hit.t);
+        at = entered && node.count() == 0 ? at + 1 : node.next();
+        for (std::uint32_t i = 0; entered && i < node.count(); ++i, ++spent.triangles)
+            hitTriangle(bvh.triangles[node.first() + i], ray, hit);
     }
     return hit ? hit : Hit{};
 }

@@ -4,7 +4,6 @@
 #include "vlf/trace/embree.h"
 
 #include <algorithm>
-#include <bit>
 #include <memory>
 #include <new>
 #include <type_traits>
@@ -13,13 +12,13 @@ namespace vlf {
 
 namespace {
 
-constexpr std::uint32_t kNormalFloat = 1u << 30, kLeaf = 1u << 31;
-constexpr std::size_t kMaxTriangles = std::size_t{1} << 27;
+constexpr std::uint32_t kNormalFloat = 1u << 30;
+constexpr std::size_t kMaxTriangles = std::size_t{1} << 26;
 
 /// A node of Embree's tree. Its boxes are not kept: they follow from the triangles.
 struct TreeNode {
-    TreeNode* child[2] = {nullptr, nullptr};  ///< both null in a leaf
-    std::uint32_t count = 0;                  ///< triangles in or below it
+    const TreeNode* child[2] = {nullptr, nullptr};  ///< both null in a leaf
+    std::uint32_t count = 0;                        ///< triangles of a leaf
     std::uint32_t triangle[Bvh::kMaxLeafSize] = {};
 
     bool isLeaf() const { return !child[0]; }
@@ -56,7 +55,7 @@ void* createNode(RTCThreadLocalAllocator allocator, unsigned, void*) {
 
 void setChildren(void* node, void** children, unsigned count, void*) {
     for (unsigned i = 0; i < count; ++i)
-        static_cast<TreeNode*>(node)->child[i] = static_cast<TreeNode*>(children[i]);
+        static_cast<TreeNode*>(node)->child[i] = static_cast<const TreeNode*>(children[i]);
 }
 
 void* createLeaf(RTCThreadLocalAllocator allocator, const RTCBuildPrimitive* primitives,
@@ -69,11 +68,11 @@ void* createLeaf(RTCThreadLocalAllocator allocator, const RTCBuildPrimitive* pri
 }
 
 /// Embree's tree of at least one triangle; it lives as long as `tree`.
-TreeNode* buildTree(RTCBVH tree, std::vector<RTCBuildPrimitive>& primitives) {
+const TreeNode* buildTree(RTCBVH tree, std::vector<RTCBuildPrimitive>& primitives) {
     RTCBuildArguments arguments = rtcDefaultBuildArguments();
     arguments.buildQuality = RTC_BUILD_QUALITY_MEDIUM;
     arguments.maxBranchingFactor = 2;
-    arguments.maxDepth = 512;  // Flattening keeps the limit: Embree would fail at it
+    arguments.maxDepth = 512;  // Embree fails at it, and a search needs no limit
     arguments.maxLeafSize = Bvh::kMaxLeafSize;
     arguments.bvh = tree;
     arguments.primitives = primitives.data();
@@ -82,116 +81,67 @@ TreeNode* buildTree(RTCBVH tree, std::vector<RTCBuildPrimitive>& primitives) {
     arguments.setNodeChildren = setChildren;
     arguments.setNodeBounds = [](void*, const RTCBounds**, unsigned, void*) {};
     arguments.createLeaf = createLeaf;
-    return static_cast<TreeNode*>(rtcBuildBVH(&arguments));
+    return static_cast<const TreeNode*>(rtcBuildBVH(&arguments));
 }
 
-/// Inner nodes on the longest way down when n triangles are halved until they fit leaves.
-int halvingDepth(std::size_t n) {
-    return n <= Bvh::kMaxLeafSize ? 0 : std::bit_width((n - 1) / Bvh::kMaxLeafSize);
-}
-
-/// Copies Embree's tree depth first. Where what is left would not fit into the depth that is left,
-/// its triangles are halved in the order of Embree's leaves instead.
+/// Copies Embree's tree depth first.
 class Flattening {
   public:
     explicit Flattening(const Scene& scene) : scene_(scene) {
         const Bounds all = boundsOf(scene);
-        if (all.empty()) return;
         padding_ = 1e-6f * maxComponent(glm::max(glm::abs(all.lower), glm::abs(all.upper)));
+        bvh_.triangles.reserve(scene.triangles.size());
     }
 
-    /// `root` is null for a scene without triangles.
-    Bvh run(TreeNode* root) && {
-        order_.reserve(scene_.triangles.size());
-        if (root) collect(*root);
-        bvh_.triangles.reserve(order_.size());
-        if (order_.size() > Bvh::kMaxLeafSize)
-            addInner(root, {0, static_cast<std::uint32_t>(order_.size())}, 1);
+    Bvh run(const TreeNode& root) && {
+        if (root.isLeaf())
+            add(root);
         else
-            addOnlyLeaf();
+            addChildren(root);
         return std::move(bvh_);
     }
 
   private:
-    struct Range {
-        std::uint32_t begin, end;
-        std::uint32_t size() const { return end - begin; }
-    };
-
-    /// Lists the triangles in the order of the leaves and counts those below inner nodes.
-    void collect(TreeNode& node) {
-        if (node.isLeaf()) {
-            order_.insert(order_.end(), node.triangle, node.triangle + node.count);
-            return;
-        }
-        node.count = 0;
-        for (TreeNode* child : node.child) {
-            collect(*child);
-            node.count += child->count;
-        }
-    }
-
-    /// `node` is null below the place where halving began; `depth` counts the nodes from the root
-    /// to the one added.
-    BvhChild addInner(const TreeNode* node, Range range, int depth) {
-        const auto index = static_cast<std::uint32_t>(bvh_.nodes.size());
+    /// Adds the node and all below it; returns its box.
+    Bounds add(const TreeNode& node) {
+        const std::size_t index = bvh_.nodes.size();
         bvh_.nodes.emplace_back();
-        bvh_.depth = std::max(bvh_.depth, depth);
-        if (node && (node->isLeaf() || !fits(*node, depth))) node = nullptr;
-        const std::uint32_t left = node ? node->child[0]->count : (range.size() + 1) / 2;
-        const std::uint32_t middle = range.begin + left;
-        BvhNode inner;
-        inner.child[0] = addChild(node ? node->child[0] : nullptr, {range.begin, middle}, depth);
-        inner.child[1] = addChild(node ? node->child[1] : nullptr, {middle, range.end}, depth);
-        bvh_.nodes[index] = inner;
-        BvhChild whole;
-        whole.lower = glm::min(inner.child[0].lower, inner.child[1].lower);
-        whole.upper = glm::max(inner.child[0].upper, inner.child[1].upper);
-        whole.reference.word = kNormalFloat | index;
-        return whole;
+        const std::uint32_t leaf = node.isLeaf() ? leafWord(node.count) : 0;
+        const Bounds box = node.isLeaf() ? addTriangles(node) : addChildren(node);
+        const auto next = static_cast<std::uint32_t>(bvh_.nodes.size());
+        bvh_.nodes[index] = {box.lower, kNormalFloat | next, box.upper, leaf};
+        return box;
     }
 
-    bool fits(const TreeNode& node, int depth) const {
-        return depth + halvingDepth(node.child[0]->count) <= Bvh::kMaxDepth &&
-               depth + halvingDepth(node.child[1]->count) <= Bvh::kMaxDepth;
+    Bounds addChildren(const TreeNode& node) {
+        Bounds box;
+        for (const TreeNode* child : node.child) {
+            const Bounds part = add(*child);
+            box.add(part.lower);
+            box.add(part.upper);
+        }
+        return box;
     }
 
-    BvhChild addChild(const TreeNode* node, Range range, int depth) {
-        const bool leaf = node ? node->isLeaf() : range.size() <= Bvh::kMaxLeafSize;
-        return leaf ? addLeaf(range) : addInner(node, range, depth + 1);
+    std::uint32_t leafWord(std::uint32_t count) const {
+        return kNormalFloat | count << 27 | static_cast<std::uint32_t>(bvh_.triangles.size());
     }
 
-    BvhChild addLeaf(Range range) {
-        BvhChild leaf;
-        leaf.reference.word = kLeaf | kNormalFloat | range.size() << 27 |
-                              static_cast<std::uint32_t>(bvh_.triangles.size());
-        Bounds bounds;
-        for (std::uint32_t i = range.begin; i < range.end; ++i) addTriangle(order_[i], bounds);
-        leaf.lower = bounds.lower - padding_;
-        leaf.upper = bounds.upper + padding_;
-        return leaf;
-    }
-
-    void addTriangle(std::uint32_t index, Bounds& bounds) {
-        const Vec3& v0 = scene_.position(index, 0);
-        const Vec3& v1 = scene_.position(index, 1);
-        const Vec3& v2 = scene_.position(index, 2);
-        for (const Vec3* v : {&v0, &v1, &v2}) bounds.add(*v);
-        bvh_.triangles.push_back({v0, kNormalFloat | index, v1 - v0, 0, v2 - v0, 0});
-    }
-
-    void addOnlyLeaf() {
-        BvhNode root;
-        const auto count = static_cast<std::uint32_t>(order_.size());
-        root.child[0] = addLeaf({0, count});
-        root.child[1] = addLeaf({count, count});
-        bvh_.nodes = {root};
-        bvh_.depth = 1;
+    Bounds addTriangles(const TreeNode& leaf) {
+        Bounds box;
+        for (std::uint32_t i = 0; i < leaf.count; ++i) {
+            const std::uint32_t index = leaf.triangle[i];
+            const Vec3& v0 = scene_.position(index, 0);
+            const Vec3& v1 = scene_.position(index, 1);
+            const Vec3& v2 = scene_.position(index, 2);
+            for (const Vec3* v : {&v0, &v1, &v2}) box.add(*v);
+            bvh_.triangles.push_back({v0, kNormalFloat | index, v1 - v0, 0, v2 - v0, 0});
+        }
+        return {box.lower - padding_, box.upper + padding_};
     }
 
     const Scene& scene_;
     float padding_ = 0;  ///< metres
-    std::vector<std::uint32_t> order_;
     Bvh bvh_;
 };
 
@@ -199,14 +149,14 @@ class Flattening {
 
 Bvh buildBvh(const Scene& scene) {
     if (scene.triangles.size() > kMaxTriangles)
-        throw InputError("the scene has more triangles than a hierarchy can hold, 2^27");
-    if (scene.triangles.empty()) return Flattening(scene).run(nullptr);
+        throw InputError("the scene has more triangles than a hierarchy can hold, 2^26");
+    if (scene.triangles.empty()) return {};
     const Device device(rtcNewDevice(nullptr));
     const Tree tree(device ? rtcNewBVH(device.get()) : nullptr);
     std::vector<RTCBuildPrimitive> primitives = makePrimitives(scene);
-    TreeNode* root = tree ? buildTree(tree.get(), primitives) : nullptr;
+    const TreeNode* root = tree ? buildTree(tree.get(), primitives) : nullptr;
     if (!root) throw Error("the hierarchy over the triangles could not be built: out of memory?");
-    return Flattening(scene).run(root);
+    return Flattening(scene).run(*root);
 }
 
 }  // namespace vlf
