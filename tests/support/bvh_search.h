@@ -26,6 +26,10 @@ inline bool entersBox(const BvhNode& box, const Ray& ray, const Vec3& reciprocal
     return enter <= leave;
 }
 
+/// Triangles reach a little over their edges (in parts of their size), so that rounding lets no ray
+/// through between two of them.
+inline constexpr float kOverlap = 1e-5f;
+
 /// Möller and Trumbore, "Fast, minimum storage ray/triangle intersection", JGT 1997.
 inline void hitTriangle(const BvhTriangle& triangle, const Ray& ray, Hit& hit) {
     const Vec3 p = glm::cross(ray.direction, triangle.e2);
@@ -35,7 +39,7 @@ inline void hitTriangle(const BvhTriangle& triangle, const Ray& ray, Hit& hit) {
     const Vec3 q = glm::cross(s, triangle.e1);
     const float v = glm::dot(ray.direction, q) * scale;
     const float t = glm::dot(triangle.e2, q) * scale;
-    if (u >= 0 && v >= 0 && u + v <= 1 && t > ray.tMin && t < hit.t)
+    if (std::min(u, v) >= -kOverlap && u + v <= 1 + kOverlap && t > ray.tMin && t < hit.t)
         hit = {triangle.sceneTriangle(), t, {u, v}};
 }
 

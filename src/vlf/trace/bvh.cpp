@@ -7,6 +7,7 @@
 #include <memory>
 #include <new>
 #include <type_traits>
+#include <utility>
 
 namespace vlf {
 
@@ -18,7 +19,7 @@ constexpr std::size_t kMaxTriangles = std::size_t{1} << 26;
 /// A node of Embree's tree. Its boxes are not kept: they follow from the triangles.
 struct TreeNode {
     const TreeNode* child[2] = {nullptr, nullptr};  ///< both null in a leaf
-    std::uint32_t count = 0;                        ///< triangles of a leaf
+    std::uint32_t count = 0;                        ///< triangles in or below it
     std::uint32_t triangle[Bvh::kMaxLeafSize] = {};
 
     bool isLeaf() const { return !child[0]; }
@@ -53,9 +54,13 @@ void* createNode(RTCThreadLocalAllocator allocator, unsigned, void*) {
     return new (rtcThreadLocalAlloc(allocator, sizeof(TreeNode), 16)) TreeNode;
 }
 
+/// Called when all that is below the node is complete.
 void setChildren(void* node, void** children, unsigned count, void*) {
-    for (unsigned i = 0; i < count; ++i)
-        static_cast<TreeNode*>(node)->child[i] = static_cast<const TreeNode*>(children[i]);
+    auto* parent = static_cast<TreeNode*>(node);
+    for (unsigned i = 0; i < count; ++i) {
+        parent->child[i] = static_cast<const TreeNode*>(children[i]);
+        parent->count += parent->child[i]->count;
+    }
 }
 
 void* createLeaf(RTCThreadLocalAllocator allocator, const RTCBuildPrimitive* primitives,
@@ -72,7 +77,7 @@ const TreeNode* buildTree(RTCBVH tree, std::vector<RTCBuildPrimitive>& primitive
     RTCBuildArguments arguments = rtcDefaultBuildArguments();
     arguments.buildQuality = RTC_BUILD_QUALITY_MEDIUM;
     arguments.maxBranchingFactor = 2;
-    arguments.maxDepth = 512;  // Embree fails at it, and a search needs no limit
+    arguments.maxDepth = 512;  // far from any scene: Embree fails at it, a search has no limit
     arguments.maxLeafSize = Bvh::kMaxLeafSize;
     arguments.bvh = tree;
     arguments.primitives = primitives.data();
@@ -84,11 +89,13 @@ const TreeNode* buildTree(RTCBVH tree, std::vector<RTCBuildPrimitive>& primitive
     return static_cast<const TreeNode*>(rtcBuildBVH(&arguments));
 }
 
-/// Copies Embree's tree depth first.
+/// Copies Embree's tree depth first, of two children the one of fewer triangles first: such are the
+/// walls, quickly searched, and a hit there spares what is behind it.
 class Flattening {
   public:
     explicit Flattening(const Scene& scene) : scene_(scene) {
         const Bounds all = boundsOf(scene);
+        // 8 times the rounding of a coordinate: a slab test rounds three times.
         padding_ = 1e-6f * maxComponent(glm::max(glm::abs(all.lower), glm::abs(all.upper)));
         bvh_.triangles.reserve(scene.triangles.size());
     }
@@ -115,7 +122,8 @@ class Flattening {
 
     Bounds addChildren(const TreeNode& node) {
         Bounds box;
-        for (const TreeNode* child : node.child) {
+        const bool leftFirst = node.child[0]->count <= node.child[1]->count;
+        for (const TreeNode* child : {node.child[!leftFirst], node.child[leftFirst]}) {
             const Bounds part = add(*child);
             box.add(part.lower);
             box.add(part.upper);

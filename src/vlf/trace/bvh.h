@@ -2,11 +2,10 @@
 // A bounding volume hierarchy over a scene's triangles as plain data, to be copied into the
 // buffers of a GPU and searched by a shader (render/gl/shaders/trace.glsl).
 //
-// Nodes lie in one depth-first order and each names the next node for a ray that misses its box,
-// so that a search is a single walk forward without a stack. Putting two boxes into a node and the
-// farther child onto a stack visits as few boxes (24 a ray in a room of 10,000 triangles, 17 to 22
-// where rooms hide each other) but was slower by a third with eight rays in step: the stack costs
-// gathers and scatters of its own.
+// Nodes lie in one depth-first order and each names the next node for a ray that misses its box:
+// a search is a single walk forward without a stack. Nodes of two boxes with the farther child put
+// on a stack test as many boxes a ray (24 in a room of 10,000 triangles) but took twice the time
+// with eight rays in step (llvmpipe), since the stack takes gathers and scatters of its own.
 
 #include "vlf/math/vector.h"
 #include "vlf/scene/scene.h"
@@ -56,8 +55,8 @@ struct Bvh {
 };
 
 /// Builds the hierarchy of a scene of finite vertices; the same scene gives the same bits with any
-/// number of threads. Rays are expected to start within a few times the scene's size of it.
-/// Throws InputError for more than 2^26 triangles and Error if memory runs out.
+/// number of threads. Boxes are padded for rays that start in the scene or no farther from it than
+/// it is large. Throws InputError for more than 2^26 triangles and Error if memory runs out.
 Bvh buildBvh(const Scene& scene);
 
 }  // namespace vlf

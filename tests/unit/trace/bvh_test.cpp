@@ -6,12 +6,16 @@
 #include "vlf/scene/generate/generate.h"
 #include "vlf/trace/ray_scene.h"
 
+#include "support/analytic_scenes.h"
 #include "support/bvh_search.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstring>
-#include <numeric>
+#include <vector>
 
 #include <gtest/gtest.h>
+#include <glm/common.hpp>
 
 namespace vlf {
 namespace {
@@ -208,6 +212,36 @@ TEST(Bvh, OfOneTriangleHitsItAndMissesBesideIt) {
     EXPECT_FLOAT_EQ(hit.barycentric.y, 0.5f);
     EXPECT_FALSE(test::closest(bvh, {{0.75f, 0.5f, 1}, {0, 0, -1}}));
     EXPECT_FALSE(test::closest(bvh, {{0.25f, 0.5f, 1}, {0, 0, 1}}));
+}
+
+TEST(Bvh, IsNotHitInTrianglesThatAreAPointOrALine) {
+    const Scene scene = looseTriangles({{0, 0, 0},
+                                        {0, 0, 0},
+                                        {0, 0, 0},  //
+                                        {0, 0, 0},
+                                        {1, 0, 0},
+                                        {2, 0, 0}});
+    const Bvh bvh = buildBvh(scene);
+    expectSound(bvh, scene);
+    EXPECT_FALSE(test::closest(bvh, {{0, 0, 1}, {0, 0, -1}}));
+    EXPECT_FALSE(test::closest(bvh, {{-1, 0, 0}, {1, 0, 0}}));
+    EXPECT_FALSE(test::closest(bvh, {{0.5f, 0.5f, 0}, {0, -1, 0}}));
+}
+
+TEST(Bvh, LetsNoRayThroughAnEdge) {
+    const Scene scene = test::furnaceSphere(Vec3(0), Vec3(0), 3);
+    const Bvh bvh = buildBvh(scene);
+    RandomStream random(4, 0);
+    int missed = 0;
+    for (int i = 0; i < 5 * kRays; ++i) {
+        const auto triangle = static_cast<std::uint32_t>(i) % scene.triangles.size();
+        const float at = random.next();
+        const Vec3 target =
+            glm::mix(scene.position(triangle, i % 3), scene.position(triangle, (i + 1) % 3), at);
+        const Vec3 origin = 0.5f * sampleUniformSphere(random.next2());
+        missed += !test::closest(bvh, {origin, target - origin});
+    }
+    EXPECT_EQ(missed, 0);
 }
 
 TEST(Bvh, OfNothingMissesEverything) {
