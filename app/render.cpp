@@ -15,6 +15,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -132,17 +133,28 @@ nlohmann::ordered_json toJson(const Still& still) {
             {"output", still.path}};
 }
 
-nlohmann::ordered_json toJson(const Options& options, const std::vector<Still>& stills) {
+nlohmann::ordered_json toJson(const GpuMemory& memory) {
+    return {{"geometry", memory.geometry},
+            {"atlas", memory.atlas},
+            {"radiance", memory.radiance},
+            {"textures", memory.textures},
+            {"radianceElements", memory.radianceElements}};
+}
+
+nlohmann::ordered_json toJson(const Options& options, const std::vector<Still>& stills,
+                              const std::optional<GpuMemory>& memory) {
     nlohmann::ordered_json pictures = nlohmann::ordered_json::array();
     for (const Still& still : stills) pictures.push_back(toJson(still));
-    return {{"field", options.field},
-            {"mode", nameOf(kModeNames, options.still.mode)},
-            {"backend", nameOf(kBackendNames, options.backend)},
-            {"lookup", nameOf(kLookupNames, options.still.lookup)},
-            {"antialias", options.still.antialias},
-            {"width", options.camera.width},
-            {"height", options.camera.height},
-            {"pictures", pictures}};
+    nlohmann::ordered_json report{{"field", options.field},
+                                  {"mode", nameOf(kModeNames, options.still.mode)},
+                                  {"backend", nameOf(kBackendNames, options.backend)},
+                                  {"lookup", nameOf(kLookupNames, options.still.lookup)},
+                                  {"antialias", options.still.antialias},
+                                  {"width", options.camera.width},
+                                  {"height", options.camera.height},
+                                  {"pictures", pictures}};
+    if (memory) report["gpuMemory"] = toJson(*memory);
+    return report;
 }
 
 using StillRenderer = std::function<Image(const StillParams&, Progress&, StillReport&)>;
@@ -167,14 +179,16 @@ void renderByCpu(const Options& options, const Globals& globals, const BakedRoom
     renderAll(options, globals, render, stills);
 }
 
-void renderByOpenGl(const Options& options, const Globals& globals, const BakedRoom& room,
-                    std::vector<Still>& stills) {
+/// Returns what the room takes in the memory of the GPU.
+GpuMemory renderByOpenGl(const Options& options, const Globals& globals, const BakedRoom& room,
+                         std::vector<Still>& stills) {
     const gl::HeadlessContext context;
     Renderer renderer(room.scene, room.field);
     const auto render = [&](const StillParams& params, Progress& progress, StillReport& report) {
         return renderStill(renderer, room.scene, params, progress, &report);
     };
     renderAll(options, globals, render, stills);
+    return renderer.memory();
 }
 
 void run(const Options& options, const Globals& globals) {
@@ -183,11 +197,12 @@ void run(const Options& options, const Globals& globals) {
     requireWritableOutputs({options.picture.path, options.json});
     const BakedRoom room = readField(options.field);
     std::vector<Still> stills = stillsToRender(options, room.scene);
+    std::optional<GpuMemory> memory;
     if (options.backend == Backend::gl)
-        renderByOpenGl(options, globals, room, stills);
+        memory = renderByOpenGl(options, globals, room, stills);
     else
         renderByCpu(options, globals, room, stills);
-    if (!options.json.empty()) writeJson(options.json, toJson(options, stills));
+    if (!options.json.empty()) writeJson(options.json, toJson(options, stills, memory));
     if (globals.quiet) return;
     for (const Still& still : stills)
         fmt::print("{}: {}x{} pixels, {:.2f} million rays in {:.2f} s\n", still.path,

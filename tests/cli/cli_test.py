@@ -77,7 +77,9 @@ class Pipeline(Case):
         self.bake("room.vlf")
         for backend in ["cpu", "gl"]:
             self.run_vlf("render", "room.vlf", "--mode", "field", "--backend", backend, "--size",
-                         "160x120", "-o", f"{backend}.exr")
+                         "160x120", "-o", f"{backend}.exr", "--json", f"{backend}.json")
+        self.assertNotIn("gpuMemory", self.json("cpu.json"))
+        self.assertGreater(self.json("gl.json")["gpuMemory"]["atlas"], 0)
         self.run_vlf("compare", "gl.exr", "cpu.exr", "--exposure", "auto", "--json", "c.json")
         self.assertLess(self.json("c.json")["flip"], 0.01)
 
