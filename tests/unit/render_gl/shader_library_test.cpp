@@ -32,7 +32,10 @@ class ShaderFolder : public ::testing::Test {
     }
 
     HeadlessContext context_;
-    const fs::path folder_ = fs::path(::testing::TempDir()) / "vlf_shaders";
+    // Tests may run at the same time.
+    const fs::path folder_ = fs::path(::testing::TempDir()) /
+                             (std::string("vlf_shaders_") +
+                              ::testing::UnitTest::GetInstance()->current_test_info()->name());
 };
 
 }  // namespace
