@@ -22,6 +22,7 @@ void addRender(CLI::App& app, const Globals& globals);
 void addReference(CLI::App& app, const Globals& globals);
 void addCompare(CLI::App& app, const Globals& globals);
 void addScene(CLI::App& app, const Globals& globals);
+void addView(CLI::App& app, const Globals& globals);
 void addSheet(CLI::App& app, const Globals& globals);
 
 }  // namespace vlf::app

@@ -26,6 +26,7 @@ void addCommands(CLI::App& app, const vlf::app::Globals& globals) {
     addBake(app, globals);
     addInfo(app, globals);
     addRender(app, globals);
+    addView(app, globals);
     addReference(app, globals);
     addCompare(app, globals);
     addScene(app, globals);

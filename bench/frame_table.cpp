@@ -105,7 +105,9 @@ int main(int argc, char** argv) {
     CLI11_PARSE(app, argc, argv);
     const BakedRoom room = readField(options.field);
     const gl::HeadlessContext context;
-    for (const Camera& camera : room.scene.cameras)
+    std::vector<Camera> cameras = room.scene.cameras;
+    if (cameras.empty()) cameras.push_back(defaultCamera(room.scene));
+    for (const Camera& camera : cameras)
         if (options.camera.empty() || camera.name == options.camera) measure(options, room, camera);
     return 0;
 }

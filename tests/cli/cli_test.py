@@ -15,7 +15,7 @@ import unittest
 from pathlib import Path
 
 PROGRAM = os.path.abspath(sys.argv.pop(1))
-COMMANDS = ["bake", "info", "render", "reference", "compare", "scene", "sheet"]
+COMMANDS = ["bake", "info", "render", "view", "reference", "compare", "scene", "sheet"]
 FAILED, USAGE, BAD_INPUT, INTERRUPTED = 1, 2, 3, 130
 
 EMPTY_OBJ = "# nothing\n"
@@ -70,6 +70,94 @@ class Help(Case):
         self.run_vlf(code=USAGE)
         self.run_vlf("cook", code=USAGE)
         self.run_vlf("bake", "cornell.obj", "-o", "a.vlf", "--nonsense", code=USAGE)
+
+
+class Screen:
+    """A display without a screen, and the keys pressed on it."""
+
+    def __enter__(self):
+        reading, writing = os.pipe()
+        self.server = subprocess.Popen(
+            ["Xvfb", "-displayfd", str(writing), "-screen", "0", "800x600x24"],
+            pass_fds=[writing], stderr=subprocess.DEVNULL)
+        os.close(writing)
+        with os.fdopen(reading) as answer:
+            self.environment = dict(os.environ, DISPLAY=f":{answer.readline().strip()}")
+        return self
+
+    def __exit__(self, *_):
+        self.server.terminate()
+        self.server.wait()
+
+    def do(self, *actions):
+        done = subprocess.run(["xdotool", *map(str, actions)], env=self.environment,
+                              capture_output=True, text=True, timeout=60)
+        return done.stdout.split()
+
+
+class Walkthrough(Case):
+    """Keys do what the help says."""
+
+    def setUp(self):
+        super().setUp()
+        self.bake("room.vlf")
+        self.screen = Screen()
+        self.screen.__enter__()
+        self.addCleanup(self.screen.__exit__)
+        self.program = subprocess.Popen([PROGRAM, "-q", "view", "room.vlf", "--size", "320x240"],
+                                        cwd=self.folder, env=self.screen.environment)
+        self.addCleanup(self.program.wait)
+        self.addCleanup(self.program.kill)
+        self.window = self.screen.do("search", "--sync", "--onlyvisible", "--name", "room.vlf")[0]
+        self.screen.do("windowfocus", "--sync", self.window)
+
+    def picture(self):
+        """What the window shows, once it has been written."""
+        path = self.folder / "vlf-view.png"
+        path.unlink(missing_ok=True)
+        self.screen.do("key", "F12")
+        for _ in range(100):
+            time.sleep(0.05)
+            if path.exists():
+                return path.read_bytes()
+        self.fail("no picture was written")
+
+    def test_keys_move_the_camera_and_change_the_exposure(self):
+        start = self.picture()
+        self.assertEqual(start, self.picture())
+        self.screen.do("keydown", "w", "sleep", "0.3", "keyup", "w")
+        self.assertNotEqual(start, self.picture())
+        self.screen.do("key", "0")
+        self.assertEqual(start, self.picture())
+        self.screen.do("key", "minus")
+        darker = self.picture()
+        self.assertNotEqual(start, darker)
+        self.screen.do("key", "equal")
+        self.assertEqual(start, self.picture())
+        self.screen.do("key", "2")
+        self.assertNotEqual(start, self.picture())
+        self.screen.do("key", "1")
+        self.assertEqual(start, self.picture())
+
+    def test_the_picture_is_as_large_as_the_window(self):
+        self.screen.do("windowsize", "--sync", self.window, 200, 150)
+        width, height = (int.from_bytes(self.picture()[i:i + 4], "big") for i in (16, 20))
+        self.assertEqual((width, height), (200, 150))
+
+    def test_escape_closes_it(self):
+        self.screen.do("key", "Escape")
+        self.assertEqual(self.program.wait(timeout=20), 0)
+
+
+class NoScreen(Case):
+    def test_a_window_that_cannot_be_opened_is_an_error_with_advice(self):
+        self.bake("room.vlf")
+        environment = {k: v for k, v in os.environ.items()
+                       if k not in ("DISPLAY", "WAYLAND_DISPLAY")}
+        done = subprocess.run([PROGRAM, "view", "room.vlf"], cwd=self.folder, env=environment,
+                              capture_output=True, text=True, timeout=60)
+        self.assertEqual(done.returncode, FAILED)
+        self.assertIn("vlf render", done.stderr)
 
 
 class Pipeline(Case):
