@@ -6,21 +6,18 @@
 
 #include "vlf/base/error.h"
 #include "vlf/image/image_io.h"
-#include "vlf/image/srgb.h"
 #include "vlf/io/field_file.h"
-#include "vlf/render/gl/still.h"
+#include "vlf/render/gl/read_framebuffer.h"
+#include "vlf/render/gl/renderer.h"
 
 #include <chrono>
 #include <memory>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include <fmt/format.h>
 
-// GLFW takes the OpenGL that is declared before it.
-#include <epoxy/gl.h>
-
+#define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
 namespace vlf::app {
@@ -158,21 +155,6 @@ class Walk {
     bool pictureWanted_ = false;
 };
 
-void writeWindow(int width, int height, const std::string& path) {
-    std::vector<std::uint8_t> bytes(3 * static_cast<std::size_t>(width) * height);
-    glPixelStorei(GL_PACK_ALIGNMENT, 1);
-    glReadPixels(0, 0, width, height, GL_RGB, GL_UNSIGNED_BYTE, bytes.data());
-    Image image(width, height);
-    for (int y = 0; y < height; ++y)
-        for (int x = 0; x < width; ++x) {
-            const std::uint8_t* p =
-                &bytes[3 * (static_cast<std::size_t>(height - 1 - y) * width + x)];
-            image.at(x, y) =
-                Vec3(linearFromSrgb8(p[0]), linearFromSrgb8(p[1]), linearFromSrgb8(p[2]));
-        }
-    writePng(path, image);
-}
-
 /// Frames a second over the last half second, in the title.
 class TitleClock {
   public:
@@ -217,7 +199,7 @@ void run(const Options& options, const Globals& globals) {
             continue;
         }
         renderer.draw(viewOf(walk.camera(), width, height, nearest), walk.settings(), 0);
-        if (walk.takePictureWanted()) writeWindow(width, height, "vlf-view.png");
+        if (walk.takePictureWanted()) writePng("vlf-view.png", readFramebuffer(0, width, height));
         glfwSwapBuffers(window.handle());
     }
 }
