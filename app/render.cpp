@@ -185,7 +185,7 @@ GpuMemory renderByOpenGl(const Options& options, const Globals& globals, const B
     const gl::HeadlessContext context;
     Renderer renderer(room.scene, room.field);
     const auto render = [&](const StillParams& params, Progress& progress, StillReport& report) {
-        return renderStill(renderer, room.scene, params, progress, &report);
+        return renderStill(renderer, params, progress, &report);
     };
     renderAll(options, globals, render, stills);
     return renderer.memory();

@@ -2,6 +2,7 @@
 
 #include "camera_options.h"
 #include "commands.h"
+#include "console.h"
 #include "fly_camera.h"
 
 #include "vlf/base/error.h"
@@ -25,8 +26,9 @@ namespace vlf::app {
 namespace {
 
 constexpr float kRadiansPerPixel = 0.003f;
-constexpr float kSecondsAcross = 6;  // to cross the room's bounding sphere
-constexpr float kExposureStep = 0.25f;
+constexpr float kSecondsAcross = 6;     // to cross the room's bounding sphere
+constexpr float kExposureStep = 0.25f;  // EV
+constexpr const char* kPicture = "vlf-view.png";
 
 constexpr const char* kKeys =
     "W A S D, arrows  go; Q, E: down, up; Shift: faster\n"
@@ -138,7 +140,7 @@ class Walk {
     }
 
     void resetExposure() {
-        // Irradiance over pi: a white wall's radiance.
+        // As if all walls were grey, of reflectance 1/2.
         const IrradianceAtlas& atlas = room_.field.atlas;
         Image walls(static_cast<int>(atlas.width), static_cast<int>(atlas.height));
         for (std::size_t i = 0; i < walls.pixels.size(); ++i)
@@ -179,6 +181,16 @@ class TitleClock {
     int frames_ = 0;
 };
 
+/// A picture that cannot be written does not end the walk.
+void writePicture(const Image& picture, const Globals& globals) {
+    try {
+        writePng(kPicture, picture);
+        if (!globals.quiet) fmt::print("{} written\n", kPicture);
+    } catch (const FileError& e) {
+        printWarning(globals.quiet, e.what());
+    }
+}
+
 void run(const Options& options, const Globals& globals) {
     const BakedRoom room = readField(options.field);
     const Camera start =
@@ -187,7 +199,6 @@ void run(const Options& options, const Globals& globals) {
     Renderer renderer(room.scene, room.field);
     Walk walk(window, room, start);
     if (!globals.quiet) fmt::print("{}\n", kKeys);
-    const float nearest = 1e-3f * room.field.frame.radius;
     TitleClock clock;
     while (!glfwWindowShouldClose(window.handle())) {
         glfwPollEvents();
@@ -198,8 +209,8 @@ void run(const Options& options, const Globals& globals) {
             glfwWaitEventsTimeout(0.1);
             continue;
         }
-        renderer.draw(viewOf(walk.camera(), width, height, nearest), walk.settings(), 0);
-        if (walk.takePictureWanted()) writePng("vlf-view.png", readFramebuffer(0, width, height));
+        renderer.draw(viewOf(walk.camera(), width, height, renderer.nearest()), walk.settings(), 0);
+        if (walk.takePictureWanted()) writePicture(readFramebuffer(0, width, height), globals);
         glfwSwapBuffers(window.handle());
     }
 }

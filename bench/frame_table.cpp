@@ -1,5 +1,5 @@
-// Frame times of the OpenGL renderer against a plain textured rasterisation of the same views.
-// frame_table FIELD [--camera NAME] [--size WxH] [--frames N]: one line per way of drawing.
+// Frame times of the OpenGL renderer against those of the same room without its mirrors:
+// frame_table FIELD [--camera NAME] [--width W] [--height H] [--frames N]
 
 #include "vlf/io/field_file.h"
 #include "vlf/render/gl/gl_object.h"
@@ -36,7 +36,7 @@ struct Target {
     }
 };
 
-/// Mirrors become diffuse surfaces: what is left is the atlas as a texture, nothing else.
+/// Mirrors become diffuse surfaces, as the atlas has them.
 BakedRoom withoutMirrors(BakedRoom room) {
     for (Material& material : room.scene.materials) material.mirror = Vec3(0);
     room.field.radiance = {};
@@ -55,11 +55,10 @@ struct Way {
     std::vector<double> milliseconds;
 };
 
-void drawFrames(const Options& options, const BakedRoom& room, const Camera& camera,
-                std::vector<Way>& ways) {
+void drawFrames(const Options& options, const Camera& camera, std::vector<Way>& ways) {
     const Target target(options.width, options.height);
-    const float nearest = 1e-3f * room.field.frame.radius;
-    const View view = viewOf(camera, options.width, options.height, nearest);
+    const View view =
+        viewOf(camera, options.width, options.height, ways.front().renderer.nearest());
     // In turns, so that whatever else the machine does weighs on all alike.
     for (int frame = -3; frame < options.frames; ++frame)
         for (Way& way : ways) {
@@ -82,7 +81,7 @@ void measure(const Options& options, const BakedRoom& room, const Camera& camera
     std::vector<Way> ways{{"mirrors as walls", plain, raster, {}},
                           {"field, plain", renderer, plainLookup, {}},
                           {"field, depth", renderer, {}, {}}};
-    drawFrames(options, room, camera, ways);
+    drawFrames(options, camera, ways);
     const double base = percentile(ways[0].milliseconds, 0.5);
     for (const Way& way : ways) {
         const double median = percentile(way.milliseconds, 0.5);

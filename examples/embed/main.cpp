@@ -44,10 +44,10 @@ void show(const char* file) {
         glfwPollEvents();
         int width = 0, height = 0;
         glfwGetFramebufferSize(window, &width, &height);
-        const float nearest = 1e-3f * room.field.frame.radius;
         if (width > 0 && height > 0)
-            renderer.draw(vlf::viewOf(swayed(camera, glfwGetTime()), width, height, nearest), {},
-                          0);
+            renderer.draw(
+                vlf::viewOf(swayed(camera, glfwGetTime()), width, height, renderer.nearest()), {},
+                0);
         glfwSwapBuffers(window);
     }
 }

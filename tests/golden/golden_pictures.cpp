@@ -1,11 +1,6 @@
 #include "golden/golden_pictures.h"
 
 #include "vlf/image/tone_map.h"
-#include "vlf/propagate/bake.h"
-#include "vlf/scene/generate/generate.h"
-
-#include <algorithm>
-#include <stdexcept>
 
 namespace vlf::test {
 
@@ -35,18 +30,6 @@ GoldenPicture diagram(const std::string& scene, const std::string& camera, Diagr
     return picture;
 }
 
-const Camera& cameraOf(const Scene& scene, const std::string& name) {
-    const auto found = std::find_if(scene.cameras.begin(), scene.cameras.end(),
-                                    [&](const Camera& c) { return c.name == name; });
-    if (found == scene.cameras.end()) throw std::logic_error("no camera " + name);
-    return *found;
-}
-
-LightField bakeDraft(const Scene& scene) {
-    Progress progress;
-    return bake(scene, presetParams("draft"), progress);
-}
-
 }  // namespace
 
 const std::vector<GoldenPicture>& goldenPictures() {
@@ -74,12 +57,9 @@ const std::vector<GoldenPicture>& goldenPictures() {
     return kPictures;
 }
 
-BakedExample::BakedExample(const std::string& name)
-    : scene(generateScene(name)), rays(scene), field(bakeDraft(scene)) {}
-
 Image renderGolden(const BakedExample& baked, const GoldenPicture& picture) {
     StillParams params;
-    params.camera = cameraOf(baked.scene, picture.camera);
+    params.camera = baked.camera(picture.camera);
     params.width = kWidth;
     params.height = kHeight;
     params.antialias = kAntialias;

@@ -2,6 +2,7 @@
 // The pictures that are kept: what each shows, and how it is made.
 
 #include "golden/picture_difference.h"
+#include "support/baked_example.h"
 #include "vlf/render/cpu/still.h"
 
 #include <string>
@@ -22,15 +23,6 @@ struct GoldenPicture {
 };
 
 const std::vector<GoldenPicture>& goldenPictures();
-
-/// An example scene baked by the preset "draft".
-struct BakedExample {
-    explicit BakedExample(const std::string& name);
-
-    Scene scene;
-    RayScene rays;
-    LightField field;
-};
 
 /// In display-linear colours in [0, 1].
 Image renderGolden(const BakedExample& baked, const GoldenPicture& picture);

@@ -1,6 +1,6 @@
 #include "vlf/render/gl/packed_radiance.h"
 
-#include "baked_example.h"
+#include "small_rooms.h"
 #include "vlf/render/gl/room_geometry.h"
 #include "vlf/render/gl/shaders/shared.h"
 

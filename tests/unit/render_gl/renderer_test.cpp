@@ -1,11 +1,13 @@
 #include "vlf/render/gl/renderer.h"
 
-#include "baked_example.h"
+#include "small_rooms.h"
 #include "vlf/base/error.h"
 #include "vlf/image/flip.h"
+#include "vlf/image/srgb.h"
 #include "vlf/image/tone_map.h"
 #include "vlf/render/gl/gl_object.h"
 #include "vlf/render/gl/headless_context.h"
+#include "vlf/render/gl/read_framebuffer.h"
 #include "vlf/render/gl/still.h"
 
 #include <numeric>
@@ -44,6 +46,20 @@ class OpenGl : public ::testing::Test {
     std::vector<std::string> messages_;
 };
 
+/// A picture for the display.
+struct Target {
+    gl::Framebuffer framebuffer = gl::makeFramebuffer();
+    gl::TextureObject color = gl::makeTexture(GL_TEXTURE_2D);
+    gl::TextureObject depth = gl::makeTexture(GL_TEXTURE_2D);
+
+    Target(int width, int height) {
+        glTextureStorage2D(color.id(), 1, GL_RGBA8, width, height);
+        glTextureStorage2D(depth.id(), 1, GL_DEPTH_COMPONENT24, width, height);
+        glNamedFramebufferTexture(framebuffer.id(), GL_COLOR_ATTACHMENT0, color.id(), 0);
+        glNamedFramebufferTexture(framebuffer.id(), GL_DEPTH_ATTACHMENT, depth.id(), 0);
+    }
+};
+
 StillParams stillOf(const Camera& camera, LookupKind lookup = LookupKind::depthCorrected) {
     StillParams params;
     params.camera = camera;
@@ -65,7 +81,7 @@ double meanFlip(const Image& picture, const Image& reference) {
 double flipAgainstCpu(const BakedExample& room, const StillParams& params) {
     Progress progress;
     Renderer renderer(room.scene, room.field);
-    return meanFlip(renderStill(renderer, room.scene, params, progress),
+    return meanFlip(renderStill(renderer, params, progress),
                     renderStill(room.scene, room.rays, room.field, params, progress));
 }
 
@@ -73,13 +89,13 @@ double flipAgainstCpu(const BakedExample& room, const StillParams& params) {
 
 TEST_F(OpenGl, DrawsDiffuseRoomsAsTheCpuDoes) {
     for (const auto& [name, camera] : {std::pair{"cornell", "front"}, {"two-rooms", "door"}}) {
-        const BakedExample room(name);
+        const BakedExample room = smallRoom(name);
         EXPECT_LT(flipAgainstCpu(room, stillOf(room.camera(camera))), 0.01) << name;
     }
 }
 
 TEST_F(OpenGl, DrawsTexturesAsTheCpuDoes) {
-    const BakedExample room("office");
+    const BakedExample room = smallRoom("office");
     EXPECT_LT(flipAgainstCpu(room, stillOf(room.camera("overview"))), 0.02);
 }
 
@@ -99,30 +115,48 @@ TEST_F(OpenGl, LooksMirrorsUpByDepthNearlyAsTheCpuDoes) {
 }
 
 TEST_F(OpenGl, TakesNewLight) {
-    const BakedExample room("cornell");
+    const BakedExample room = smallRoom("cornell");
     Renderer renderer(room.scene, room.field);
     IrradianceAtlas dark = room.field.atlas;
     for (Vec3& e : dark.irradiance) e *= 0.5f;
     const StillParams params = stillOf(room.camera("inside"));
     Progress progress;
-    const Image before = renderStill(renderer, room.scene, params, progress);
+    const Image before = renderStill(renderer, params, progress);
     renderer.updateIrradiance(dark);
-    const Image after = renderStill(renderer, room.scene, params, progress);
+    const Image after = renderStill(renderer, params, progress);
     const Vec3 pixel = before.at(20, 100);
     EXPECT_GT(luminance(pixel), 0);
     EXPECT_NEAR(luminance(after.at(20, 100)) / luminance(pixel), 0.5f, 5e-3f);
 }
 
-TEST_F(OpenGl, LeavesTheStateOfItsHostAsItWas) {
-    const BakedExample room("cornell");
+TEST_F(OpenGl, WritesColoursForTheDisplayAsTheCpuMapsThem) {
+    const BakedExample room = smallRoom("cornell");
     Renderer renderer(room.scene, room.field);
-    const gl::Framebuffer target = gl::makeFramebuffer();
-    const gl::TextureObject color = gl::makeTexture(GL_TEXTURE_2D);
-    const gl::TextureObject depth = gl::makeTexture(GL_TEXTURE_2D);
-    glTextureStorage2D(color.id(), 1, GL_RGBA8, 64, 48);
-    glTextureStorage2D(depth.id(), 1, GL_DEPTH_COMPONENT24, 64, 48);
-    glNamedFramebufferTexture(target.id(), GL_COLOR_ATTACHMENT0, color.id(), 0);
-    glNamedFramebufferTexture(target.id(), GL_DEPTH_ATTACHMENT, depth.id(), 0);
+    StillParams params = stillOf(room.camera("front"));
+    params.antialias = 1;
+    Progress progress;
+    const Image radiance = renderStill(renderer, params, progress);
+    const Target target(params.width, params.height);
+    for (const ToneCurve tone : {ToneCurve::filmic, ToneCurve::clamp}) {
+        RenderSettings settings;
+        settings.tone = tone;
+        settings.exposure = 1.5f;
+        renderer.draw(viewOf(params.camera, params.width, params.height, renderer.nearest()),
+                      settings, target.framebuffer.id());
+        const Image shown = readFramebuffer(target.framebuffer.id(), params.width, params.height);
+        const Image expected = toneMap(radiance, settings.exposure, tone);
+        float largest = 0;
+        for (std::size_t i = 0; i < shown.pixels.size(); ++i)
+            largest = std::max(largest, maxComponent(glm::abs(srgbFromLinear(shown.pixels[i]) -
+                                                              srgbFromLinear(expected.pixels[i]))));
+        EXPECT_LT(largest, 1.5f / 255);
+    }
+}
+
+TEST_F(OpenGl, LeavesTheStateOfItsHostAsItWas) {
+    const BakedExample room = smallRoom("cornell");
+    Renderer renderer(room.scene, room.field);
+    const Target target(64, 48);
     glViewport(3, 4, 50, 40);
     glScissor(5, 6, 7, 8);
     glEnable(GL_BLEND);
@@ -132,7 +166,7 @@ TEST_F(OpenGl, LeavesTheStateOfItsHostAsItWas) {
     glFrontFace(GL_CW);
     glClearColor(0.25f, 0.5f, 0.75f, 1);
     glActiveTexture(GL_TEXTURE2);
-    glBindTexture(GL_TEXTURE_2D, color.id());
+    glBindTexture(GL_TEXTURE_2D, target.color.id());
     const auto state = [] {
         std::vector<GLint> values;
         for (const GLenum name :
@@ -148,11 +182,11 @@ TEST_F(OpenGl, LeavesTheStateOfItsHostAsItWas) {
         return values;
     };
     const auto before = state();
-    renderer.draw(viewOf(room.camera("front"), 64, 48, 0.01f), {}, target.id());
+    renderer.draw(viewOf(room.camera("front"), 64, 48, 0.01f), {}, target.framebuffer.id());
     EXPECT_EQ(state(), before);
     std::vector<std::uint8_t> pixels(4 * 64 * 48);
-    glGetTextureImage(color.id(), 0, GL_RGBA, GL_UNSIGNED_BYTE, static_cast<GLsizei>(pixels.size()),
-                      pixels.data());
+    glGetTextureImage(target.color.id(), 0, GL_RGBA, GL_UNSIGNED_BYTE,
+                      static_cast<GLsizei>(pixels.size()), pixels.data());
     EXPECT_GT(pixels[4 * (24 * 64 + 32)], 20) << "the picture is there all the same";
 }
 
@@ -168,10 +202,10 @@ TEST_F(OpenGl, RefusesWhatItCannotDraw) {
     StillParams params = stillOf(room.camera("front"));
     params.mode = DisplayMode::raytraced;
     Progress progress;
-    EXPECT_THROW(renderStill(renderer, room.scene, params, progress), InputError);
+    EXPECT_THROW(renderStill(renderer, params, progress), InputError);
     params = stillOf(room.camera("front"));
     progress.cancel();
-    EXPECT_THROW(renderStill(renderer, room.scene, params, progress), Cancelled);
+    EXPECT_THROW(renderStill(renderer, params, progress), Cancelled);
 }
 
 TEST_F(OpenGl, SaysHowMuchMemoryItTakes) {

@@ -1,6 +1,7 @@
 #pragma once
 // OpenGL objects that delete themselves, and how many there are.
 
+#include <cstddef>
 #include <utility>
 
 #include <epoxy/gl.h>

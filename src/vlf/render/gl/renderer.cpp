@@ -24,6 +24,8 @@ using namespace shared;
 /// the CPU (render/cpu/radiance_lookup.cpp).
 constexpr float kTolerance = 5;
 
+constexpr float kNearest = 1e-3f;  ///< the near plane, of the field's radius
+
 VertexArray makeRoomVertexArray(const Buffer& vertices, const Buffer& indices) {
     VertexArray array = makeVertexArray();
     const GLuint id = array.id();
@@ -100,6 +102,7 @@ struct Renderer::Impl {
         atlas = makeAtlasTexture(field.atlas);
         updateIrradiance(field.atlas);
         viewBuffer = makeBuffer(nullptr, sizeof(ViewData), GL_DYNAMIC_STORAGE_BIT);
+        nearest = kNearest * field.frame.radius;
         memory.atlas = 4 * field.atlas.irradiance.size();
         memory.textures = textures.bytes();
     }
@@ -225,6 +228,7 @@ struct Renderer::Impl {
     TextureObject atlas, elementTexture, recordTexture;
     ViewData viewData{};
     GpuMemory memory;
+    float nearest = 0;
 };
 
 Renderer::Renderer(const Scene& scene, const LightField& field, const RendererOptions& options)
@@ -239,6 +243,10 @@ void Renderer::draw(const View& view, const RenderSettings& settings, unsigned f
 
 void Renderer::updateIrradiance(const IrradianceAtlas& atlas) {
     impl_->updateIrradiance(atlas);
+}
+
+float Renderer::nearest() const {
+    return impl_->nearest;
 }
 
 const GpuMemory& Renderer::memory() const {

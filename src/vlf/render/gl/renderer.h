@@ -56,6 +56,9 @@ class Renderer {
 
     const GpuMemory& memory() const;
 
+    /// Distance of a near plane that suits the room, metres.
+    float nearest() const;
+
   private:
     struct Impl;
     std::unique_ptr<Impl> impl_;

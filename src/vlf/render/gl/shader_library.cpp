@@ -51,7 +51,8 @@ std::string ShaderLibrary::expand(const std::string& file, const Defines& define
         std::string name = line.substr(9);
         if (const auto define = defines.find(name); define != defines.end()) name = define->second;
         if (name.size() > 2 && name.front() == '"') name = name.substr(1, name.size() - 2);
-        // C++ headers are for C++.
+        // What C++ alone includes, and names that this variant does not define, lie in branches
+        // that the preprocessor leaves out.
         if (!name.starts_with("vlf/") && !name.starts_with("<") && name.find('.') != name.npos)
             text += expand(name, defines, files);
         text += "#line " + std::to_string(lineNumber + 1) + " " + std::to_string(number) + "\n";

@@ -14,7 +14,6 @@ namespace {
 using namespace gl;
 
 constexpr int kMaxAntialias = 16;
-constexpr float kNearest = 1e-3f;  // of the scene's radius
 
 /// Radiance and depth of a picture.
 struct FloatTarget {
@@ -65,13 +64,12 @@ void requireDrawable(const StillParams& params) {
 
 }  // namespace
 
-Image renderStill(Renderer& renderer, const Scene& scene, const StillParams& params,
-                  Progress& progress, StillReport* report) {
+Image renderStill(Renderer& renderer, const StillParams& params, Progress& progress,
+                  StillReport* report) {
     using Clock = std::chrono::steady_clock;
     requireDrawable(params);
     const Clock::time_point start = Clock::now();
     progress.stage("rendering");
-    const float nearest = kNearest * boundingSphere(scene).radius;
     const int n = params.antialias;
     FloatTarget target(params.width, params.height);
     RenderSettings settings;
@@ -86,8 +84,9 @@ Image renderStill(Renderer& renderer, const Scene& scene, const StillParams& par
         const auto side = static_cast<float>(n);
         const Vec2 point((column + (row + 0.5f) / side) / side,
                          (row + (column + 0.5f) / side) / side);
-        renderer.draw(viewOf(params.camera, params.width, params.height, nearest, point - 0.5f),
-                      settings, target.framebuffer.id());
+        renderer.draw(
+            viewOf(params.camera, params.width, params.height, renderer.nearest(), point - 0.5f),
+            settings, target.framebuffer.id());
         target.addTo(image, 1.0f / static_cast<float>(n * n));
         progress.update(static_cast<double>(i + 1) / (n * n));
     }

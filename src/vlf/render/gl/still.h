@@ -11,7 +11,7 @@ namespace vlf {
 /// As renderStill of render/cpu, by a renderer in the current context. The picture is the mean of
 /// antialias² of them, shifted by parts of a pixel; no ray is traced. Throws InputError if the mode
 /// is not `field`, the camera has no view or a number is out of range, and Cancelled.
-Image renderStill(Renderer& renderer, const Scene& scene, const StillParams& params,
-                  Progress& progress, StillReport* report = nullptr);
+Image renderStill(Renderer& renderer, const StillParams& params, Progress& progress,
+                  StillReport* report = nullptr);
 
 }  // namespace vlf

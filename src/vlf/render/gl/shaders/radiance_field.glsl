@@ -83,8 +83,8 @@ vec3 mirrorRadiance() {
     return sum.w > 0 ? sum.rgb / sum.w : vec3(0);
 }
 #else
-// Follows the line of sight to where the subfield shows it: x is the depth there, y whether it has
-// been found.
+// The radiance where the line of sight ends as the subfield shows it, and how deep that is; `found`
+// is the sight's weight, or 0 if the subfield does not show it.
 vec3 follow(Sight s, out float depth, out float found) {
     uint e = elementAt(s.record, s.cell);
     found = e != 0u ? s.weight : 0;
