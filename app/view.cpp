@@ -3,14 +3,15 @@
 #include "camera_options.h"
 #include "commands.h"
 #include "console.h"
-#include "fly_camera.h"
 
 #include "vlf/base/error.h"
+#include "vlf/display/camera_pose.h"
 #include "vlf/image/image_io.h"
 #include "vlf/io/field_file.h"
 #include "vlf/render/gl/read_framebuffer.h"
 #include "vlf/render/gl/renderer.h"
 
+#include <algorithm>
 #include <chrono>
 #include <memory>
 #include <string>
@@ -80,7 +81,7 @@ class Window {
 class Walk {
   public:
     Walk(const Window& window, const BakedRoom& room, const Camera& start)
-        : window_(window.handle()), room_(room), start_(start), camera_(start) {
+        : window_(window.handle()), room_(room), start_(start), pose_(poseOf(start)) {
         resetExposure();
         glfwSetWindowUserPointer(window_, this);
         glfwSetKeyCallback(window_, [](GLFWwindow* w, int key, int, int action, int) {
@@ -104,10 +105,11 @@ class Walk {
                        axis(held(GLFW_KEY_W, GLFW_KEY_UP), held(GLFW_KEY_S, GLFW_KEY_DOWN)));
         const float speed = 2 * room_.field.frame.radius / kSecondsAcross;
         const bool fast = held(GLFW_KEY_LEFT_SHIFT, GLFW_KEY_RIGHT_SHIFT);
-        camera_.move(way * (seconds * speed * (fast ? 3.0f : 1.0f)));
+        const Vec3 metres = way * (seconds * speed * (fast ? 3.0f : 1.0f));
+        pose_.eye += metres.x * pose_.right() + Vec3(0, metres.y, 0) + metres.z * pose_.forward();
     }
 
-    Camera camera() const { return camera_.camera(); }
+    Camera camera() const { return cameraOf(pose_); }
     const RenderSettings& settings() const { return settings_; }
     bool takePictureWanted() { return std::exchange(pictureWanted_, false); }
 
@@ -115,9 +117,9 @@ class Walk {
     void press(int key) {
         const auto number = static_cast<std::size_t>(key - GLFW_KEY_1);
         if (key >= GLFW_KEY_1 && key <= GLFW_KEY_9 && number < room_.scene.cameras.size())
-            camera_ = FlyCamera(room_.scene.cameras[number]);
+            pose_ = poseOf(room_.scene.cameras[number]);
         if (key == GLFW_KEY_0) {
-            camera_ = FlyCamera(start_);
+            pose_ = poseOf(start_);
             resetExposure();
         }
         if (key == GLFW_KEY_EQUAL || key == GLFW_KEY_KP_ADD) settings_.exposure += kExposureStep;
@@ -135,7 +137,11 @@ class Walk {
         for (const int button : {GLFW_MOUSE_BUTTON_LEFT, GLFW_MOUSE_BUTTON_RIGHT})
             held = held || glfwGetMouseButton(window_, button) == GLFW_PRESS;
         const Vec2 turn = kRadiansPerPixel * (at - pointer_);
-        if (held) camera_.turn(turn.x, -turn.y);
+        if (held) {
+            pose_.yaw -= turn.x;
+            pose_.pitch = std::clamp(pose_.pitch - turn.y, -CameraPose::kMostPitch,
+                                     CameraPose::kMostPitch);
+        }
         pointer_ = at;
     }
 
@@ -151,7 +157,7 @@ class Walk {
     GLFWwindow* window_;
     const BakedRoom& room_;
     Camera start_;
-    FlyCamera camera_;
+    CameraPose pose_;
     RenderSettings settings_;
     Vec2 pointer_{0};
     bool pictureWanted_ = false;

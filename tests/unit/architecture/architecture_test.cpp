@@ -31,6 +31,7 @@ const std::map<std::string, std::set<std::string>> kArrows{
     {"propagate", {"scene", "trace", "field", "unwrap"}},
     {"io", {"scene", "field", "image"}},
     {"render", {"scene", "trace", "field", "image"}},
+    {"display", {"scene", "trace", "image", "render"}},
 };
 
 /// Libraries that one module alone may use, so that they can be exchanged.
