@@ -90,9 +90,9 @@ std::vector<Point> surfacePoints(const Scene& scene) {
     return points;
 }
 
-/// Relative RMSE of irradiance against the last arrival's, over both sides of the points.
+/// √(Σ(E−E*)² / ΣE*²) of irradiance against the last arrival's, over both sides of the points.
 double difference(const std::vector<Point>& points, const Arrival& a, const Arrival& last) {
-    double squares = 0, whole = 0, count = 0;
+    double squares = 0, whole = 0;
     for (const Point& p : points)
         for (const auto side : {&TriangleCharts::front, &TriangleCharts::back}) {
             const std::uint32_t own = a.room->field.triangleCharts[p.triangle].*side;
@@ -104,10 +104,9 @@ double difference(const std::vector<Point>& points, const Arrival& a, const Arri
             };
             const double truth = sample(last, other), d = sample(a, own) - truth;
             squares += d * d;
-            whole += truth;
-            count += 1;
+            whole += truth * truth;
         }
-    return std::sqrt(squares / count) / (whole / count);
+    return std::sqrt(squares / whole);
 }
 
 const char* nameOf(LiveStage stage) {

@@ -34,7 +34,8 @@ class InputError : public Error {
 /// The file system said no (missing folder, full disk, no permission).
 class FileError : public Error {
   public:
-    FileError(const std::string& path, const std::string& message) : Error(path + ": " + message) {}
+    FileError(const std::string& path, const std::string& message)
+        : Error(path + ": " + message) {}
 };
 
 /// The work was cancelled through its Progress.
