@@ -116,16 +116,17 @@ class LadderBake {
 
     /// Posts the state: with its charts the first time, then its light alone.
     void show(const BakeState& state, LiveStage stage) {
+        auto light = std::make_shared<IrradianceAtlas>(
+            stage == LiveStage::estimated ? evenIrradiance(state) : fillAtlas(state));
         LiveUpdate update{.stage = stage, .bounces = state.report.sweeps};
-        if (roomShown_) {
-            update.irradiance = std::make_shared<IrradianceAtlas>(fillAtlas(state));
-        } else {
-            const auto room = std::make_shared<BakedRoom>(BakedRoom{scene_, diffuseField(state)});
-            if (stage == LiveStage::estimated) room->field.atlas = evenIrradiance(state);
+        if (!roomShown_) {
+            const auto room = std::make_shared<BakedRoom>(BakedRoom{scene_, unlitField(state)});
+            room->field.atlas = std::move(*light);
+            light = {room, &room->field.atlas};
             update.room = room;
-            update.irradiance = {room, &room->field.atlas};
             roomShown_ = true;
         }
+        update.irradiance = std::move(light);
         post(std::move(update), state.params);
         nextState_ = Clock::now() + options_.interval;
     }

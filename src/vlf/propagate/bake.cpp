@@ -153,17 +153,17 @@ BakeState makeState(const Scene& scene, const BakeParams& params, Progress& prog
     return state;
 }
 
-LightField diffuseField(const BakeState& state) {
+LightField unlitField(const BakeState& state) {
     LightField field;
     field.frame = state.frame;
     field.charts = state.unwrap.charts;
     field.triangleCharts = state.unwrap.triangleCharts;
-    field.atlas = fillAtlas(state);
     return field;
 }
 
 LightField finish(BakeState& state, Progress& progress) {
-    LightField field = timed(state.report, progress, "atlas", [&] { return diffuseField(state); });
+    LightField field = unlitField(state);
+    field.atlas = timed(state.report, progress, "atlas", [&] { return fillAtlas(state); });
     addRadianceField(state, field, progress);
     state.report.energy = energyBalance(state);
     BakeRecord& r = field.record;

@@ -102,8 +102,8 @@ void propagateOnce(BakeState& state, int directions, int cells, int sweep, Progr
 /// params.maxBounces), then one fine one.
 void propagate(BakeState& state, Progress& progress, const BakeObserver& observe = unobserved);
 
-/// The light field of the present solution without the radiance of mirrors and without a record.
-LightField diffuseField(const BakeState& state);
+/// Where the state's light field lies and its charts, without light (see fillAtlas) and record.
+LightField unlitField(const BakeState& state);
 
 /// The light field of the present solution.
 LightField finish(BakeState& state, Progress& progress);
