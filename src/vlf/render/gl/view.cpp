@@ -7,9 +7,10 @@ View viewOf(const Camera& camera, int width, int height, float nearest, const Ve
     const Vec3 right = glm::normalize(glm::cross(forward, glm::normalize(camera.up)));
     const Vec3 up = glm::cross(right, forward);
     const float f = 1 / std::tan(0.5f * camera.verticalFov * (kPi / 180));
-    const Vec2 shift(-2 * offset.x / width, 2 * offset.y / height);
-    const Vec3 rows[3] = {f * height / width * right + shift.x * forward,
-                          f * up + shift.y * forward, forward};
+    const Vec2 scale(f * height / width, f);
+    const Vec2 shift = Vec2(-2 * offset.x / width, 2 * offset.y / height) - scale * camera.shift;
+    const Vec3 rows[3] = {scale.x * right + shift.x * forward, scale.y * up + shift.y * forward,
+                          forward};
     View view;
     view.eye = camera.eye;
     view.width = width;
