@@ -165,6 +165,8 @@ struct Renderer::Impl {
     }
 
     void draw(const View& view, const RenderSettings& settings, GLuint framebuffer) {
+        if (settings.mode != DisplayMode::field)
+            throw InputError("OpenGL draws mode field; render other modes with --backend cpu");
         const StateGuard guard;
         viewData.clipFromWorld = view.clipFromWorld;
         viewData.eye = Vec4(view.eye, 1);

@@ -4,7 +4,7 @@
 
 #include "vlf/field/light_field.h"
 #include "vlf/image/tone_map.h"
-#include "vlf/render/cpu/radiance_lookup.h"
+#include "vlf/render/cpu/still.h"
 #include "vlf/render/gl/view.h"
 #include "vlf/scene/scene.h"
 
@@ -20,6 +20,7 @@ struct RendererOptions {
 };
 
 struct RenderSettings {
+    DisplayMode mode = DisplayMode::field;
     LookupKind lookup = LookupKind::depthCorrected;  ///< of mirrors
     std::optional<ToneCurve> tone =
         ToneCurve::filmic;  ///< none: writes radiance, for float targets
@@ -49,6 +50,7 @@ class Renderer {
     Renderer& operator=(Renderer&&) noexcept;
 
     /// Clears the view's rectangle of `framebuffer`, which needs a depth attachment, and draws.
+    /// Throws InputError for modes other than `field`.
     void draw(const View& view, const RenderSettings& settings, unsigned framebuffer);
 
     /// The light has changed: the atlas is of the same charts as before.
