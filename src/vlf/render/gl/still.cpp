@@ -50,8 +50,6 @@ struct FloatTarget {
 
 void requireDrawable(const StillParams& params) {
     const CameraRays requireView(params.camera, params.width, params.height);
-    if (params.mode != DisplayMode::field)
-        throw InputError("OpenGL draws mode field; render other modes with --backend cpu");
     if (params.antialias < 1 || params.antialias > kMaxAntialias)
         throw InputError("antialias must lie between 1 and " + std::to_string(kMaxAntialias) +
                          " rays along a pixel's side");
@@ -73,9 +71,11 @@ Image renderStill(Renderer& renderer, const StillParams& params, Progress& progr
     const int n = params.antialias;
     FloatTarget target(params.width, params.height);
     RenderSettings settings;
+    settings.mode = params.mode == DisplayMode::progressive ? DisplayMode::raytraced : params.mode;
     settings.lookup = params.lookup;
     settings.tone.reset();
     settings.textureBias = -std::log2(static_cast<float>(n));
+    const View view = viewOf(params.camera, params.width, params.height, renderer.nearest());
     Image image(params.width, params.height);
     for (int i = 0; i < n * n; ++i) {
         progress.check();
@@ -84,9 +84,7 @@ Image renderStill(Renderer& renderer, const StillParams& params, Progress& progr
         const auto side = static_cast<float>(n);
         const Vec2 point((column + (row + 0.5f) / side) / side,
                          (row + (column + 0.5f) / side) / side);
-        renderer.draw(
-            viewOf(params.camera, params.width, params.height, renderer.nearest(), point - 0.5f),
-            settings, target.framebuffer.id());
+        renderer.draw(shifted(view, point - 0.5f), settings, target.framebuffer.id());
         target.addTo(image, 1.0f / static_cast<float>(n * n));
         progress.update(static_cast<double>(i + 1) / (n * n));
     }
