@@ -8,6 +8,7 @@
 #include "vlf/render/gl/room_geometry.h"
 #include "vlf/render/gl/scene_textures.h"
 #include "vlf/render/gl/shader_library.h"
+#include "vlf/render/gl/tone_data.h"
 #include "vlf/trace/ray_scene.h"
 
 #include <algorithm>
@@ -191,16 +192,10 @@ struct Renderer::Impl {
         const StateGuard guard;
         viewData.clipFromWorld = view.clipFromWorld;
         viewData.eye = Vec4(view.eye, rayStart);
-        viewData.tone = {std::exp2(settings.exposure), outputKind(settings), settings.textureBias,
-                         0};
+        viewData.tone = toneData(settings);
         glNamedBufferSubData(viewBuffer.id(), 0, sizeof viewData, &viewData);
         prepare(view, framebuffer);
         for (std::size_t i = 0; i < batches.size(); ++i) drawBatch(i, settings);
-    }
-
-    static float outputKind(const RenderSettings& settings) {
-        if (!settings.tone) return kWriteRadiance;
-        return *settings.tone == ToneCurve::filmic ? kWriteFilmic : kWriteClamped;
     }
 
     void prepare(const View& view, GLuint framebuffer) {

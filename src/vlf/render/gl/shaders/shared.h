@@ -31,6 +31,9 @@ VLF_INT kHitRecordUnit = 7;
 VLF_INT kHitTexelUnit = 8;
 VLF_INT kMirrorTriangleUnit = 9;  // the scene's triangles by those of the mirrors' batches
 VLF_INT kUnits = 10;
+VLF_INT kPictureUnit = 0;  // of picture_mean.frag, as are these uniforms
+VLF_INT kSizeLocation = 0;
+VLF_INT kWeightLocation = 1;
 
 // Uniform blocks.
 VLF_INT kViewBlock = 0;
