@@ -20,6 +20,9 @@ StateGuard::StateGuard() {
     glGetBooleanv(GL_COLOR_WRITEMASK, colorMask_.data());
     glGetFloatv(GL_COLOR_CLEAR_VALUE, clearColor_.data());
     glGetFloatv(GL_DEPTH_CLEAR_VALUE, &clearDepth_);
+    glGetFloatv(GL_POLYGON_OFFSET_FACTOR, &offsetFactor_);
+    glGetFloatv(GL_POLYGON_OFFSET_UNITS, &offsetUnits_);
+    for (std::size_t i = 0; i < kBlending.size(); ++i) glGetIntegerv(kBlending[i], &blending_[i]);
     glGetBooleanv(GL_DEPTH_WRITEMASK, &depthMask_);
     glGetIntegerv(GL_CURRENT_PROGRAM, &program_);
     glGetIntegerv(GL_VERTEX_ARRAY_BINDING, &vertexArray_);
@@ -50,6 +53,10 @@ StateGuard::~StateGuard() {
     glColorMask(colorMask_[0], colorMask_[1], colorMask_[2], colorMask_[3]);
     glClearColor(clearColor_[0], clearColor_[1], clearColor_[2], clearColor_[3]);
     glClearDepthf(clearDepth_);
+    glPolygonOffset(offsetFactor_, offsetUnits_);
+    const auto blending = [&](std::size_t i) { return static_cast<GLenum>(blending_[i]); };
+    glBlendFuncSeparate(blending(0), blending(1), blending(2), blending(3));
+    glBlendEquationSeparate(blending(4), blending(5));
     glDepthMask(depthMask_);
     glUseProgram(static_cast<GLuint>(program_));
     glBindVertexArray(static_cast<GLuint>(vertexArray_));

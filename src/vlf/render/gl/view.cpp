@@ -14,6 +14,7 @@ View viewOf(const Camera& camera, int width, int height, float nearest, const Ve
     view.eye = camera.eye;
     view.width = width;
     view.height = height;
+    view.offset = offset;
     for (int axis = 0; axis < 3; ++axis)
         view.clipFromWorld[axis] = {rows[0][axis], rows[1][axis], forward[axis], forward[axis]};
     view.clipFromWorld[3] = {-glm::dot(rows[0], camera.eye), -glm::dot(rows[1], camera.eye),

@@ -9,6 +9,8 @@ struct View {
     Mat4 clipFromWorld{1};
     Vec3 eye{0};
     int x = 0, y = 0, width = 0, height = 0;  ///< viewport, pixels from the lower left
+    Vec2 offset{0};  ///< pixels right and down by which clipFromWorld moves the view for
+                     ///< antialiasing; lines, which need none, are not moved
 };
 
 /// The view of a camera, moved by `offset` pixels (right, down) for antialiasing. The near plane
