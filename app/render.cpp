@@ -42,6 +42,7 @@ struct Options {
 
 const std::map<std::string, DisplayMode> kModeNames{{"raytraced", DisplayMode::raytraced},
                                                     {"field", DisplayMode::field},
+                                                    {"progressive", DisplayMode::progressive},
                                                     {"wireframe", DisplayMode::wireframe},
                                                     {"diagram", DisplayMode::diagram}};
 const std::map<std::string, Backend> kBackendNames{{"cpu", Backend::cpu}, {"gl", Backend::gl}};
@@ -213,7 +214,7 @@ void run(const Options& options, const Globals& globals) {
 void addModeOptions(CLI::App& command, StillParams& still) {
     command.add_option("--mode", still.mode, "What to show; see below")
         ->transform(CLI::CheckedTransformer(kModeNames))
-        ->option_text("raytraced|field|wireframe|diagram [raytraced]");
+        ->option_text("raytraced|field|progressive|wireframe|diagram [raytraced]");
     command
         .add_option("--lookup", still.lookup,
                     "Mode field: correct the lookup by the depth of what is seen, or not")
@@ -268,10 +269,11 @@ void addRender(CLI::App& app, const Globals& globals) {
     command->add_option("--json", options->json, "Write a report to this file");
     command->footer(
         "Modes:\n"
-        "  raytraced  diffuse light from the field, mirrors by tracing reflections\n"
-        "  field      diffuse light and mirrors from the field, no reflection traced\n"
-        "  wireframe  a line drawing; hidden edges faint\n"
-        "  diagram    the structure of the field (--diagram)\n"
+        "  raytraced    diffuse light from the field, mirrors by tracing reflections\n"
+        "  field        diffuse light and mirrors from the field, no reflection traced\n"
+        "  progressive  what that mode of a window comes to at rest: as raytraced\n"
+        "  wireframe    a line drawing; hidden edges faint\n"
+        "  diagram      the structure of the field (--diagram)\n"
         "--exposure and --tone have no effect on drawings.\n\n"
         "Examples:\n"
         "  vlf render room.vlf --camera front --size 1024x768 -o front.png\n"

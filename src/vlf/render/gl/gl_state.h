@@ -21,9 +21,6 @@ class StateGuard {
     static constexpr std::array<GLenum, 7> kSwitches{
         GL_DEPTH_TEST,       GL_CULL_FACE,          GL_BLEND, GL_SCISSOR_TEST, GL_STENCIL_TEST,
         GL_FRAMEBUFFER_SRGB, GL_POLYGON_OFFSET_FILL};
-    static constexpr std::array<GLenum, 6> kBlending{
-        GL_BLEND_SRC_RGB,   GL_BLEND_DST_RGB,      GL_BLEND_SRC_ALPHA,
-        GL_BLEND_DST_ALPHA, GL_BLEND_EQUATION_RGB, GL_BLEND_EQUATION_ALPHA};
     struct Unit {
         GLint texture2d, bufferTexture, sampler;
     };
@@ -34,10 +31,10 @@ class StateGuard {
     std::array<GLint, 4> viewport_{}, scissor_{};
     std::array<GLboolean, 4> colorMask_{};
     std::array<GLfloat, 4> clearColor_{};
-    std::array<GLint, kBlending.size()> blending_{};
     GLfloat clearDepth_ = 1, offsetFactor_ = 0, offsetUnits_ = 0;
     GLboolean depthMask_ = GL_TRUE;
     GLint program_ = 0, vertexArray_ = 0, drawBuffer_ = 0, readBuffer_ = 0, activeTexture_ = 0;
+    GLint blendEquation_[2] = {0, 0}, blendFunction_[4] = {0, 0, 0, 0};
     GLint depthFunction_ = 0, cullFace_ = 0, frontFace_ = 0, uniformBuffer_ = 0;
 };
 

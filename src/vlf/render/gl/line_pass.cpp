@@ -166,9 +166,10 @@ void LinePass::draw(const LineBuffer& lines, const Defines& kind) {
 void LinePass::finish(GLuint framebuffer, const TextureObject* picture) {
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     glViewport(view_.x, view_.y, view_.width, view_.height);
-    glScissor(view_.x, view_.y, view_.width, view_.height);
+    const PixelRectangle part =
+        view_.part.value_or(PixelRectangle{view_.x, view_.y, view_.width, view_.height});
+    glScissor(part.x, part.y, part.width, part.height);
     glDisable(GL_BLEND);
-    glClear(GL_DEPTH_BUFFER_BIT);
     Defines kind{{"SHEETS", std::to_string(sheets_)}};
     if (picture) kind.emplace("PICTURE", "1");
     glUseProgram(program("sheets", kind));
