@@ -95,7 +95,7 @@ struct Variant {
 struct Renderer::Impl {
     Impl(const Scene& scene, const LightField& field, const RendererOptions& options)
         : scene(scene),
-          field(field),
+          lightField(field),
           charts(field.charts),
           triangleCharts(field.triangleCharts),
           shaders(options.shaderFolder),
@@ -177,7 +177,7 @@ struct Renderer::Impl {
 
     void makeReady(DisplayMode mode) {
         if (!showsRadiance(mode)) {
-            if (!drawings) drawings.emplace(scene, field, shaders);
+            if (!drawings) drawings.emplace(scene, lightField, shaders);
         } else if (mode == DisplayMode::raytraced) {
             if (!hits) hits.emplace(scene, charts, triangleCharts, mirrorTriangles);
             memory.hits = hits->bytes();
@@ -228,7 +228,7 @@ struct Renderer::Impl {
             return;
         }
         RenderSettings beneath = settings;
-        beneath.mode = canLookUp ? DisplayMode::field : DisplayMode::raytraced;
+        beneath.mode = settings.diagramRoom;
         makeReady(beneath.mode);
         drawRoom(view, beneath, framebuffer);
         if (kind == DiagramKind::directions)
@@ -278,7 +278,7 @@ struct Renderer::Impl {
     }
 
     const Scene& scene;
-    const LightField& field;
+    const LightField& lightField;
     std::vector<Chart> charts;
     std::vector<TriangleCharts> triangleCharts;
     ShaderLibrary shaders;

@@ -30,8 +30,10 @@ struct RenderSettings {
                             ///< averaged
     float exposure = 0;     ///< EV, before the tone curve; tone-mapped colours are sRGB-encoded
 
-    bool normals = false;        ///< of mode wireframe
-    DiagramParams diagram;       ///< of mode diagram
+    bool normals = false;                          ///< of mode wireframe
+    DiagramParams diagram;                         ///< of mode diagram
+    DisplayMode diagramRoom = DisplayMode::field;  ///< or raytraced: of the dimmed room beneath
+                                                   ///< the diagrams `directions` and `chart`
     Camera diagramCamera;        ///< what `diagram` leaves open is chosen to show well from here
     std::optional<Sphere> ball;  ///< where diagram `directions` hangs its ball, metres; none: in
                                  ///< the middle of the room

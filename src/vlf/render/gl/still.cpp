@@ -49,6 +49,7 @@ RenderSettings settingsOf(const StillParams& params) {
     settings.textureBias = -std::log2(static_cast<float>(params.antialias));
     settings.normals = params.normals;
     settings.diagram = params.diagram;
+    settings.diagramRoom = DisplayMode::raytraced;
     settings.diagramCamera = params.camera;
     return settings;
 }
@@ -56,7 +57,7 @@ RenderSettings settingsOf(const StillParams& params) {
 /// Of the room beneath a diagram, by a small picture of it, as on the CPU (render/cpu/diagram.cpp).
 float exposureOf(Renderer& renderer, const StillParams& params) {
     StillParams preview = params;
-    preview.mode = renderer.canLookUp() ? DisplayMode::field : DisplayMode::raytraced;
+    preview.mode = DisplayMode::raytraced;
     preview.width = std::max(params.width / 8, 1);
     preview.height = std::max(params.height / 8, 1);
     preview.antialias = 1;

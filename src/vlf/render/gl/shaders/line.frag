@@ -16,11 +16,16 @@ layout(location = 0) out vec4 ink;
 layout(location = 1) out vec4 moreInk;
 
 #ifdef HIDING
-// All of a stroke is visible or all of it hidden.
+// All of a stroke is visible or all of it hidden, by the room's depth at its middle. Of a contour
+// the nearest of four pixels may show the surface before it turns away, or what is beside it.
 bool isHidden(float s) {
-    ivec2 last = ivec2(drawing.viewport.xy) - 1;
-    ivec2 pixel = clamp(ivec2(floor(mix(ends.xy, ends.zw, s))), ivec2(0), last);
-    return mix(depths.z, depths.w, s) > texelFetch(roomDepth, pixel, 0).r;
+    vec2 point = clamp(mix(ends.xy, ends.zw, s), vec2(0.5), drawing.viewport.xy - 0.5);
+    float depth = mix(depths.z, depths.w, s);
+    bool contour = pen == kCreasePen && hiddenPen < 0;
+    if (contour)
+        return all(greaterThan(vec4(depth),
+                               textureGather(roomDepth, point / vec2(textureSize(roomDepth, 0)))));
+    return depth > texelFetch(roomDepth, ivec2(point), 0).r;
 }
 
 float depthCue(float s) {

@@ -51,10 +51,9 @@ float depthOf(vec4 clip) {
 
 #ifdef NORMALS
 bool isHidden(vec4 clip) {
-    ivec2 pixel = ivec2(floor(pixelOf(clip)));
-    if (any(lessThan(pixel, ivec2(0))) || any(greaterThanEqual(pixel, ivec2(drawing.viewport.xy))))
-        return false;
-    return clip.w <= 0 || depthOf(clip) > texelFetch(roomDepth, pixel, 0).r;
+    vec2 pixel = pixelOf(clip);
+    if (clip.w <= 0 || pixel != clamp(pixel, vec2(0), drawing.viewport.xy - 1)) return false;
+    return depthOf(clip) > texelFetch(roomDepth, ivec2(pixel), 0).r;
 }
 #endif
 
