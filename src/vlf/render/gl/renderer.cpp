@@ -93,8 +93,8 @@ struct Variant {
 }  // namespace
 
 struct Renderer::Impl {
-    Impl(const Scene& scene, const LightField& field, const RendererOptions& options)
-        : scene(scene),
+    Impl(const Scene& shown, const LightField& field, const RendererOptions& options)
+        : scene(shown),
           lightField(field),
           charts(field.charts),
           triangleCharts(field.triangleCharts),
