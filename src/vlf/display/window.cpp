@@ -102,7 +102,8 @@ void Window::listen() {
     // Noted here, told by poll: an exception must not pass through GLFW.
     glfwSetKeyCallback(window_, [](GLFWwindow* w, int key, int, int action, int modifiers) {
         if (action != GLFW_RELEASE)
-            self(w).presses_.push_back({Key{key}, (modifiers & GLFW_MOD_SHIFT) != 0});
+            self(w).presses_.push_back(
+                {Key{key}, (modifiers & GLFW_MOD_SHIFT) != 0, action == GLFW_REPEAT});
     });
     glfwSetCursorPosCallback(window_, [](GLFWwindow* w, double x, double y) {
         const Vec2 at(x, y);
@@ -118,8 +119,7 @@ void Window::poll(WindowListener& listener) {
         glfwWaitEventsTimeout(kSecondsHidden);
     else
         glfwPollEvents();
-    for (const Press& press : std::exchange(presses_, {}))
-        listener.keyPressed(press.key, press.shift);
+    for (const KeyPress& press : std::exchange(presses_, {})) listener.keyPressed(press);
     if (const Vec2 by = std::exchange(moved_, Vec2(0)); by != Vec2(0)) listener.pointerMoved(by);
     if (const float steps = std::exchange(scrolled_, 0.0f); steps != 0) listener.scrolled(steps);
 }
@@ -138,10 +138,6 @@ void Window::close() {
 
 bool Window::hidden() const {
     return glfwGetWindowAttrib(window_, GLFW_ICONIFIED) || pixelWidth() == 0 || pixelHeight() == 0;
-}
-
-bool Window::focused() const {
-    return glfwGetWindowAttrib(window_, GLFW_FOCUSED) != 0;
 }
 
 int Window::pixelWidth() const {

@@ -28,13 +28,18 @@ struct WindowOptions {
     int samples = 0;  ///< of multisampling, per pixel; 0: none
 };
 
+struct KeyPress {
+    Key key = Key::unknown;
+    bool shift = false;
+    bool repeated = false;  ///< it has been held for a while
+};
+
 /// Whoever is told what the user does. Calls come from within Window::poll.
 class WindowListener {
   public:
     virtual ~WindowListener() = default;
 
-    /// A key goes down, or repeats while it is held.
-    virtual void keyPressed(Key key, bool shift) = 0;
+    virtual void keyPressed(const KeyPress& press) = 0;
     /// The pointer has moved by so many units of the desktop, right and down positive.
     virtual void pointerMoved(const Vec2& by) = 0;
     /// The wheel has turned; away from the user is positive.
@@ -60,7 +65,6 @@ class Window {
     void close();
     /// Nothing can be drawn: the window is an icon or has no area.
     bool hidden() const;
-    bool focused() const;
 
     int pixelWidth() const;   ///< of the framebuffer
     int pixelHeight() const;  ///< of the framebuffer
@@ -86,18 +90,13 @@ class Window {
     GLFWwindow* handle() const { return window_; }
 
   private:
-    struct Press {
-        Key key;
-        bool shift;
-    };
-
     void open(const WindowOptions& options);
     void listen();
     void forgetPointer();
 
     GLFWwindow* window_ = nullptr;
     WindowPlace place_;
-    std::vector<Press> presses_;
+    std::vector<KeyPress> presses_;
     std::optional<Vec2> pointer_;
     Vec2 moved_{0};
     float scrolled_ = 0;

@@ -103,6 +103,7 @@ struct Renderer::Impl {
         updateIrradiance(field.atlas);
         viewBuffer = makeBuffer(nullptr, sizeof(ViewData), GL_DYNAMIC_STORAGE_BIT);
         nearest = kNearest * field.frame.radius;
+        programs = makePrograms();
         memory.atlas = 4 * field.atlas.irradiance.size();
         memory.textures = textures.bytes();
     }
@@ -149,10 +150,18 @@ struct Renderer::Impl {
                             packed.data());
     }
 
-    GLuint program(const Variant& variant) {
-        Program& p = programs[variant];
-        if (!p) p = shaders.program("surface", variant.defines());
-        return p.id();
+    /// Of every variant the room can be drawn with.
+    std::map<Variant, Program> makePrograms() const {
+        std::map<Variant, Program> made;
+        for (const RoomBatch& batch : batches)
+            for (const LookupKind lookup : {LookupKind::depthCorrected, LookupKind::plain}) {
+                RenderSettings settings;
+                settings.lookup = lookup;
+                const Variant variant = variantOf(batch, settings);
+                if (Program& p = made[variant]; !p)
+                    p = shaders.program("surface", variant.defines());
+            }
+        return made;
     }
 
     Variant variantOf(const RoomBatch& batch, const RenderSettings& settings) const {
@@ -208,7 +217,7 @@ struct Renderer::Impl {
     void drawBatch(std::size_t i, const RenderSettings& settings) {
         const RoomBatch& batch = batches[i];
         const Material& material = materials[batch.material];
-        glUseProgram(program(variantOf(batch, settings)));
+        glUseProgram(programs.at(variantOf(batch, settings)).id());
         (batch.cull ? glEnable : glDisable)(GL_CULL_FACE);
         textures.bind(kDiffuseUnit, material.diffuseTexture);
         textures.bind(kEmissionUnit, material.emissionTexture);
@@ -243,6 +252,10 @@ void Renderer::draw(const View& view, const RenderSettings& settings, unsigned f
 
 void Renderer::updateIrradiance(const IrradianceAtlas& atlas) {
     impl_->updateIrradiance(atlas);
+}
+
+void Renderer::reloadShaders() {
+    impl_->programs = impl_->makePrograms();
 }
 
 float Renderer::nearest() const {

@@ -54,6 +54,10 @@ class Renderer {
     /// The light has changed: the atlas is of the same charts as before.
     void updateIrradiance(const IrradianceAtlas& atlas);
 
+    /// The files of options.shaderFolder have changed: makes the shaders anew. Throws InputError
+    /// with the driver's message; the old ones are then kept.
+    void reloadShaders();
+
     const GpuMemory& memory() const;
 
     /// Distance of a near plane that suits the room, metres.
