@@ -63,8 +63,7 @@ void addWindowOptions(CLI::App& command, Options& options) {
         .add_option("--samples", options.viewer.window.samples,
                     "Samples per pixel, for smooth edges; 0: none")
         ->check(CLI::Range(0, 16))
-        ->type_name("N")
-        ->capture_default_str();
+        ->option_text("N [4, or 0 where the CPU draws]");
     command.add_flag("--no-vsync", options.noVsync, "Draw as fast as possible");
     command.add_option("--frames", options.frames, "Close after N frames")->type_name("N");
     command.add_flag("--fresh", options.fresh, "Neither use nor change what is remembered");
@@ -97,6 +96,7 @@ void addView(CLI::App& app, const Globals& globals) {
     command->callback([options, command, &globals] {
         for (const char* chosen : {"--camera", "--eye", "--up", "--fov"})
             options->viewer.startChosen |= command->count(chosen) > 0;
+        options->viewer.samplesChosen = command->count("--samples") > 0;
         options->viewer.placeChosen = command->count("--size") > 0;
         run(*options, globals);
     });

@@ -8,7 +8,7 @@
 
 #include "vlf/base/error.h"
 #include "vlf/image/image_io.h"
-#include "vlf/render/gl/context_loss.h"
+#include "vlf/render/gl/driver.h"
 #include "vlf/render/gl/read_framebuffer.h"
 #include "vlf/render/gl/still.h"
 
@@ -31,13 +31,17 @@ constexpr float kTitle = 0.5f;            // ... at the title
 constexpr float kMessage = 3, kFade = 1;  // seconds a message stays, and fades in the end
 constexpr const char* kHint = "Tab: settings   H: keys   Escape: close";
 
-/// The window's place: the user's choice, else the remembered one.
-WindowOptions windowOptions(const ViewerOptions& options, const Memory& memory) {
-    WindowOptions window = options.window;
-    window.title = options.field;
+std::unique_ptr<Window> openWindow(const ViewerOptions& options, const Memory& memory) {
+    WindowOptions wanted = options.window;
+    wanted.title = options.field;
     if (!options.placeChosen && memory.preferences().window)
-        window.place = *memory.preferences().window;
-    return window;
+        wanted.place = *memory.preferences().window;
+    auto window = std::make_unique<Window>(wanted);
+    if (wanted.samples == 0 || options.samplesChosen || !gl::drawsOnCpu()) return window;
+    // Who draws is known only now.
+    wanted.samples = 0;
+    window.reset();
+    return std::make_unique<Window>(wanted);
 }
 
 /// True every so often.
@@ -62,8 +66,8 @@ bool matches(const Binding& binding, const KeyPress& press) {
 Viewer::Viewer(const BakedRoom& room, const ViewerOptions& options)
     : options_(options),
       memory_(options.preferences, options.field, options.quiet),
-      window_(windowOptions(options, memory_)),
-      gui_(window_),
+      window_(openWindow(options, memory_)),
+      gui_(*window_),
       renderer_(room.scene, room.field, {options.shaderFolder}),
       walk_(room, options.start, [this](const std::string& text) { say(text); }),
       shaderWatch_(options.shaderFolder),
@@ -76,18 +80,18 @@ Viewer::Viewer(const BakedRoom& room, const ViewerOptions& options)
 
 void Viewer::frame(double seconds) {
     const float step = std::min(static_cast<float>(seconds), kLongestFrame);
-    window_.poll(*this);
+    window_->poll(*this);
     walk_.navigator().advance(steering(step), step);
-    if (window_.hidden()) return;
+    if (window_->hidden()) return;
     statistics_.add(seconds);
     reloadShaders(step);
     drawRoom();
     adaptExposure(step);
     writeWantedPicture();
-    gui_.begin(shown_.panel && !window_.pointerCaptured());
-    drawMessages(step);
+    gui_.begin(shown_.panel && !window_->pointerCaptured());
+    drawMessages(static_cast<float>(seconds));
     drawOverlays();
-    window_.swap();
+    window_->swap();
     showTitle(static_cast<float>(seconds));
     if (gl::contextLost())
         throw Error(
@@ -100,11 +104,11 @@ Steering Viewer::steering(float seconds) {
     steering.turn = std::exchange(turn_, Vec2(0));
     if (!gui_.typing())
         for (const Binding& binding : keyBindings())
-            if (held(window_, binding)) {
+            if (held(*window_, binding)) {
                 steering.go += binding.go;
                 steering.fast = steering.fast || binding.fast;
             }
-    if (const auto pad = window_.gamepad()) steering += steeringOf(*pad, seconds);
+    if (const auto pad = window_->gamepad()) steering += steeringOf(*pad, seconds);
     return steering;
 }
 
@@ -115,7 +119,7 @@ void Viewer::keyPressed(const KeyPress& press) {
 }
 
 void Viewer::pointerMoved(const Vec2& by) {
-    if (window_.pointerCaptured() || (window_.buttonHeld() && !gui_.wantsPointer()))
+    if (window_->pointerCaptured() || (window_->buttonHeld() && !gui_.wantsPointer()))
         turn_ -= kRadiansPerPixel * by;
 }
 
@@ -129,22 +133,22 @@ void Viewer::addBookmark() {
 }
 
 void Viewer::captureMouse(bool on) {
-    window_.capturePointer(on);
+    window_->capturePointer(on);
     say(on ? "mouse captured: Escape frees it" : "mouse free");
 }
 
 void Viewer::toggleFullscreen() {
-    window_.setFullscreen(!window_.fullscreen());
-    say(window_.fullscreen() ? "full screen" : "window");
+    window_->setFullscreen(!window_->fullscreen());
+    say(window_->fullscreen() ? "full screen" : "window");
 }
 
 void Viewer::escape() {
-    if (window_.pointerCaptured())
+    if (window_->pointerCaptured())
         captureMouse(false);
     else if (shown_.help)
         shown_.help = false;
     else
-        window_.close();
+        window_->close();
 }
 
 void Viewer::say(const std::string& text) {
@@ -170,7 +174,7 @@ void Viewer::reloadShaders(float seconds) {
 void Viewer::drawRoom() {
     const gl::TimedPass pass(roomTimer_);
     renderer_.draw(
-        viewOf(walk_.camera(), window_.pixelWidth(), window_.pixelHeight(), renderer_.nearest()),
+        viewOf(walk_.camera(), window_->pixelWidth(), window_->pixelHeight(), renderer_.nearest()),
         walk_.settings(), 0);
 }
 
@@ -179,7 +183,7 @@ void Viewer::adaptExposure(float seconds) {
     if (due(sinceMetered_, seconds, kMetering))
         meter_.measure(
             renderer_, walk_.camera(),
-            static_cast<float>(window_.pixelWidth()) / static_cast<float>(window_.pixelHeight()));
+            static_cast<float>(window_->pixelWidth()) / static_cast<float>(window_->pixelHeight()));
     if (const auto wanted = meter_.exposure()) walk_.exposure().adapt(*wanted, seconds);
 }
 
@@ -190,13 +194,15 @@ void Viewer::drawMessages(float seconds) {
 }
 
 void Viewer::drawOverlays() {
-    if (shown_.panel) drawPanel(*this);
-    if (shown_.statistics)
+    if (shown_.help)
+        drawHelp();
+    else if (shown_.panel)
+        drawPanel(*this);
+    if (shown_.statistics && !shown_.help)
         drawStatistics(
             statistics_,
             {{"room", roomTimer_.milliseconds()}, {"overlay", overlayTimer_.milliseconds()}},
             renderer_.memory());
-    if (shown_.help) drawHelp();
     const gl::TimedPass pass(overlayTimer_);
     gui_.draw();
 }
@@ -218,7 +224,7 @@ void Viewer::writeWantedPicture() {
 /// As it is shown, without what lies over it, or its radiance. Returns the name of the file.
 std::string Viewer::writePicture(Picture kind) {
     const std::string stem = std::filesystem::path(options_.field).stem().string();
-    const int width = window_.pixelWidth(), height = window_.pixelHeight();
+    const int width = window_->pixelWidth(), height = window_->pixelHeight();
     const std::string name = makeNumberedFile(stem, kind == Picture::png ? "png" : "exr");
     try {
         if (kind == Picture::png) {
@@ -243,7 +249,7 @@ std::string Viewer::writePicture(Picture kind) {
 
 void Viewer::showTitle(float seconds) {
     if (due(sinceTitle_, seconds, kTitle))
-        window_.setTitle(fmt::format("{} - {:.0f} fps", options_.field, statistics_.rate()));
+        window_->setTitle(fmt::format("{} - {:.0f} fps", options_.field, statistics_.rate()));
 }
 
 }  // namespace vlf::app

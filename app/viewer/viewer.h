@@ -12,6 +12,7 @@
 #include "vlf/render/gl/gpu_timer.h"
 #include "vlf/render/gl/renderer.h"
 
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -23,8 +24,9 @@ struct ViewerOptions {
     bool startChosen = false;  ///< by the user, over what is remembered
     WindowOptions window;      ///< its place, unless the user has chosen one, is the remembered one
     bool placeChosen = false;  ///< by the user
-    std::string shaderFolder;  ///< see RendererOptions; watched for changes
-    std::string preferences;   ///< file; empty: remembers nothing
+    bool samplesChosen = false;  ///< by the user; otherwise none where the CPU draws
+    std::string shaderFolder;    ///< see RendererOptions; watched for changes
+    std::string preferences;     ///< file; empty: remembers nothing
     bool quiet = false;
     bool verbose = false;  ///< prints what keys have done
 };
@@ -41,13 +43,13 @@ class Viewer : private WindowListener {
     /// `room` must outlive it. Throws as Window and Renderer do.
     Viewer(const BakedRoom& room, const ViewerOptions& options);
 
-    bool closing() const { return window_.closing(); }
+    bool closing() const { return window_->closing(); }
 
     /// One frame, `seconds` after the one before. Throws Error if the driver was reset.
     void frame(double seconds);
 
     /// Writes down what is to be remembered.
-    void remember() { memory_.save(window_, walk_); }
+    void remember() { memory_.save(*window_, walk_); }
 
     Walkthrough& walk() { return walk_; }
     Shown& shown() { return shown_; }
@@ -75,7 +77,7 @@ class Viewer : private WindowListener {
 
     ViewerOptions options_;
     Memory memory_;
-    Window window_;
+    std::unique_ptr<Window> window_;
     Gui gui_;
     Renderer renderer_;
     Walkthrough walk_;

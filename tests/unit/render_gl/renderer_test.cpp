@@ -233,6 +233,8 @@ TEST_F(OpenGl, TakesNewShadersAndKeepsTheOldOnesIfTheyAreAtFault) {
     write("nonsense");
     EXPECT_THROW(Renderer(room.scene, room.field, {folder.string()}), InputError);
     std::filesystem::remove_all(folder);
+    EXPECT_FALSE(messages_.empty());
+    messages_.clear();
 }
 
 TEST_F(OpenGl, SaysHowMuchMemoryItTakes) {
