@@ -5,11 +5,13 @@ Run as: cli_test.py PATH_OF_VLF [unittest options]
 
 import json
 import os
+import queue
 import resource
 import signal
 import subprocess
 import sys
 import tempfile
+import threading
 import time
 import unittest
 from pathlib import Path
@@ -96,7 +98,7 @@ class Screen:
 
 
 class Walkthrough(Case):
-    """Keys do what the help says."""
+    """A window on a room, its keys pressed."""
 
     def setUp(self):
         super().setUp()
@@ -104,49 +106,185 @@ class Walkthrough(Case):
         self.screen = Screen()
         self.screen.__enter__()
         self.addCleanup(self.screen.__exit__)
-        self.program = subprocess.Popen([PROGRAM, "-q", "view", "room.vlf", "--size", "320x240"],
-                                        cwd=self.folder, env=self.screen.environment)
-        self.addCleanup(self.program.wait)
-        self.addCleanup(self.program.kill)
+        self.screen.environment["XDG_CONFIG_HOME"] = str(self.folder / "config")
+
+    def open(self, *options, size="320x240"):
+        """Opens the window; `said` then holds the lines it prints."""
+        if size:
+            options = ("--size", size, *options)
+        self.program = subprocess.Popen(
+            [PROGRAM, "-v", "view", "room.vlf", *options], cwd=self.folder,
+            env=self.screen.environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        self.said = queue.Queue()
+        reader = threading.Thread(target=self.listen, args=(self.program, self.said))
+        reader.start()
+        for cleanup in (self.program.stderr.close, reader.join, self.program.wait,
+                        self.program.kill):
+            self.addCleanup(cleanup)
+        self.hear("H in the window")
         self.window = self.screen.do("search", "--sync", "--onlyvisible", "--name", "room.vlf")[0]
         self.screen.do("windowfocus", "--sync", self.window)
 
+    @staticmethod
+    def listen(program, said):
+        with program.stdout as stream:
+            for line in stream:
+                said.put(line.strip())
+
+    def hear(self, text):
+        """The next line that is said, in which the text must be."""
+        line = self.said.get(timeout=30)
+        self.assertIn(text, line)
+        return line
+
+    def press(self, key, text):
+        self.screen.do("key", key)
+        return self.hear(text)
+
+    def close(self):
+        self.screen.do("key", "Escape")
+        self.assertEqual(self.program.wait(timeout=30), 0)
+
     def picture(self):
         """What the window shows, once it has been written."""
-        path = self.folder / "vlf-view.png"
-        path.unlink(missing_ok=True)
-        self.screen.do("key", "F12")
-        for _ in range(100):
-            time.sleep(0.05)
-            if path.exists():
-                return path.read_bytes()
-        self.fail("no picture was written")
+        return (self.folder / self.press("F12", "written").split()[0]).read_bytes()
+
+    def remembered(self):
+        return json.loads((self.folder / "config" / "vlf" / "view.json").read_text())
+
+    def room(self):
+        (room,) = self.remembered()["rooms"].values()
+        return room
 
     def test_keys_move_the_camera_and_change_the_exposure(self):
+        self.open("--fresh")
         start = self.picture()
         self.assertEqual(start, self.picture())
-        self.screen.do("keydown", "w", "sleep", "0.3", "keyup", "w")
+        self.screen.do("keydown", "w", "sleep", "0.5", "keyup", "w")
         self.assertNotEqual(start, self.picture())
-        self.screen.do("key", "0")
+        self.press("0", "start")
         self.assertEqual(start, self.picture())
-        self.screen.do("key", "minus")
-        darker = self.picture()
-        self.assertNotEqual(start, darker)
-        self.screen.do("key", "equal")
-        self.assertEqual(start, self.picture())
-        self.screen.do("key", "2")
+        self.press("minus", "exposure")
         self.assertNotEqual(start, self.picture())
-        self.screen.do("key", "1")
+        self.press("equal", "exposure")
         self.assertEqual(start, self.picture())
+        self.press("2", "camera")
+        self.assertNotEqual(start, self.picture())
+        self.press("1", "camera front")
+        self.assertEqual(start, self.picture())
+        self.screen.do("mousemove", 100, 100, "mousedown", 1, "mousemove", 160, 120, "mouseup", 1)
+        self.assertNotEqual(start, self.picture())
+        self.assertNotIn("config", self.files(), "--fresh")
 
-    def test_the_picture_is_as_large_as_the_window(self):
+    def test_keys_do_what_they_say(self):
+        self.open()
+        for key, text in [("g", "walking"), ("g", "flying"), ("l", "plain"), ("l", "by depth"),
+                          ("t", "linear"), ("t", "filmic"), ("x", "automatic"), ("x", "fixed at"),
+                          ("bracketleft", "field of view"), ("Next", "field of view"),
+                          ("m", "mode field"), ("n", "no bookmarks"), ("b", "place 1 added"),
+                          ("n", "bookmark place 1"), ("c", "captured"), ("Escape", "mouse free"),
+                          ("F11", "full screen"), ("F11", "window"), ("0", "start")]:
+            self.press(key, text)
+        self.screen.do("mousemove", 100, 100, "click", 4)
+        self.hear("speed x 1.20")
+        self.close()
+
+    def test_what_lies_over_the_picture_is_not_written_nor_in_the_way(self):
+        self.open("--fresh", size="600x500")
+        start = self.picture()
+        for key in ("Tab", "F3", "h"):
+            self.screen.do("key", key)
+            self.assertEqual(start, self.picture(), key)
+        self.screen.do("key", "h")
+        self.assertEqual(start, self.picture())
+        # Over the panel the mouse is the panel's; keys are still the room's.
+        self.screen.do("mousemove", 60, 60, "mousedown", 1, "mousemove", 90, 90, "mouseup", 1)
+        self.assertEqual(start, self.picture())
+        self.screen.do("keydown", "w", "sleep", "0.5", "keyup", "w")
+        self.assertNotEqual(start, self.picture())
+        self.close()
+        self.assertNotIn("imgui.ini", self.files())
+
+    def test_pictures_are_numbered_and_never_overwrite(self):
+        (self.folder / "room-0001.png").write_text("precious")
+        self.open("--fresh", "--camera", "front")
+        self.press("F12", "room-0002.png written")
+        self.press("shift+F12", "room-0001.exr written")
+        self.close()
+        self.assertEqual((self.folder / "room-0001.png").read_text(), "precious")
+        self.run_vlf("render", "room.vlf", "--camera", "front", "--backend", "gl", "--mode",
+                     "field", "--size", "320x240", "-o", "still.exr")
+        self.run_vlf("compare", "room-0001.exr", "still.exr", "--json", "c.json")
+        self.assertLess(self.json("c.json")["relMse"], 1e-6)
+
+    def test_the_window_can_be_resized_hidden_and_shown_again(self):
+        self.open("--fresh")
         self.screen.do("windowsize", "--sync", self.window, 200, 150)
         width, height = (int.from_bytes(self.picture()[i:i + 4], "big") for i in (16, 20))
         self.assertEqual((width, height), (200, 150))
+        self.screen.do("windowunmap", "--sync", self.window, "sleep", "0.5")
+        self.screen.do("windowmap", "--sync", self.window, "windowfocus", self.window)
+        self.press("t", "linear")
+        self.close()
 
-    def test_escape_closes_it(self):
-        self.screen.do("key", "Escape")
-        self.assertEqual(self.program.wait(timeout=20), 0)
+    def test_where_one_was_is_remembered(self):
+        self.open(size="300x200")
+        start = self.picture()
+        self.screen.do("keydown", "d", "sleep", "0.5", "keyup", "d", "sleep", "0.7")
+        end = self.picture()
+        self.press("b", "added")
+        self.close()
+        self.assertNotEqual(start, end)
+        self.assertEqual(self.room()["bookmarks"][0]["pose"], self.room()["pose"])
+        self.assertEqual(self.remembered()["window"]["width"], 300)
+        self.open(size=None)
+        self.assertEqual(end, self.picture())
+        self.press("0", "start")
+        self.assertEqual(start, self.picture())
+        self.press("n", "bookmark place 1")
+        self.assertEqual(end, self.picture())
+        self.close()
+
+    def test_preferences_that_cannot_be_used_are_a_warning(self):
+        path = self.folder / "config" / "vlf" / "view.json"
+        path.parent.mkdir(parents=True)
+        path.write_text('{"speed": "quick"}')
+        self.open()
+        self.press("b", "added")
+        self.close()
+        self.assertIn("view.json: speed: must be a number", self.program.stderr.read())
+        self.assertEqual(path.read_text(), '{"speed": "quick"}')
+
+    def test_shaders_are_loaded_anew_when_they_change(self):
+        shaders = self.folder / "shaders"
+        shaders.mkdir()
+        self.open("--fresh", "--shaders", "shaders")
+        start = self.picture()
+        (shaders / "tone_map.glsl").write_text("nonsense")
+        self.hear("shaders kept")
+        self.assertEqual(start, self.picture())
+        (shaders / "tone_map.glsl").write_text(
+            "vec4 outputColor(vec3 radiance) { return vec4(1, 0, 0, 1); }")
+        self.hear("shaders reloaded")
+        self.assertNotEqual(start, self.picture())
+
+    def test_it_closes_after_so_many_frames(self):
+        done = subprocess.run([PROGRAM, "-q", "view", "room.vlf", "--frames", "3", "--no-vsync",
+                               "--samples", "2"],
+                              cwd=self.folder, env=self.screen.environment, timeout=60)
+        self.assertEqual(done.returncode, 0)
+        self.assertEqual(self.remembered()["movement"], "fly")
+
+
+class KeyTable(Case):
+    def test_the_manual_has_every_key_of_the_help(self):
+        manual = (Path(__file__).parents[2] / "docs" / "command-line.md").read_text()
+        text = self.run_vlf("view", "--help").stdout
+        rows = text.split("Keys:\n")[1].split("\n\n")[0].splitlines()
+        self.assertGreater(len(rows), 20)
+        for row in rows:
+            keys, does = row[:26].strip(), row[26:].strip()
+            self.assertIn(f"| {keys} | {does} |", manual)
 
 
 class NoScreen(Case):

@@ -6,6 +6,12 @@
 #include "vlf/image/srgb.h"
 #include "vlf/render/gl/read_framebuffer.h"
 
+#include <filesystem>
+#include <fstream>
+#include <numeric>
+#include <string>
+#include <vector>
+
 #include <gtest/gtest.h>
 
 namespace vlf::test {
@@ -109,6 +115,33 @@ TEST_F(OpenGl, RefusesWhatItCannotDraw) {
     params = stillOf(room.camera("front"));
     progress.cancel();
     EXPECT_THROW(renderStill(renderer, params, progress), Cancelled);
+}
+
+TEST_F(OpenGl, TakesNewShadersAndKeepsTheOldOnesIfTheyAreAtFault) {
+    const std::filesystem::path folder =
+        std::filesystem::path(::testing::TempDir()) / "vlf_reloaded_shaders";
+    std::filesystem::create_directories(folder);
+    const auto write = [&](const std::string& text) {
+        std::ofstream(folder / "tone_map.glsl") << text;
+    };
+    write("vec4 outputColor(vec3 radiance) { return vec4(0.25, 0, 0, 1); }\n");
+    const BakedExample room = smallRoom("cornell");
+    Renderer renderer(room.scene, room.field, {folder.string()});
+    Progress progress;
+    const StillParams params = stillOf(room.camera("inside"));
+    const auto red = [&] { return renderStill(renderer, params, progress).at(80, 60).x; };
+    EXPECT_EQ(red(), 0.25f);
+    write("vec4 outputColor(vec3 radiance) { return nonsense; }\n");
+    EXPECT_THROW(renderer.reloadShaders(), InputError);
+    EXPECT_EQ(red(), 0.25f);
+    write("vec4 outputColor(vec3 radiance) { return vec4(0.5, 0, 0, 1); }\n");
+    renderer.reloadShaders();
+    EXPECT_EQ(red(), 0.5f);
+    write("nonsense");
+    EXPECT_THROW(Renderer(room.scene, room.field, {folder.string()}), InputError);
+    std::filesystem::remove_all(folder);
+    EXPECT_FALSE(messages_.empty());
+    messages_.clear();
 }
 
 TEST_F(OpenGl, SaysHowMuchMemoryItTakes) {

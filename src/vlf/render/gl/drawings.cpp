@@ -28,12 +28,6 @@ const DirectionSet& Drawings::directionSet() {
     return *directionSet_;
 }
 
-GLuint Drawings::program(const std::string& name) {
-    Program& p = programs_[name];
-    if (!p) p = shaders_.program(name, {});
-    return p.id();
-}
-
 void Drawings::wireframe(const View& view, bool normals, const std::function<void()>& drawTriangles,
                          GLuint framebuffer) {
     if (!wireframe_) wireframe_.emplace(scene_);
@@ -42,14 +36,14 @@ void Drawings::wireframe(const View& view, bool normals, const std::function<voi
 
 void Drawings::directions(const std::optional<Sphere>& ball) {
     if (!directions_) directions_.emplace(directionSet());
-    directions_->draw(program("ball"),
+    directions_->draw(shaders_.program("ball", {}),
                       ball.value_or(Sphere{field_.frame.centre, kBallSize * field_.frame.radius}));
 }
 
 void Drawings::chart(const DiagramParams& params, const Camera& camera, GLuint irradianceAtlas) {
     const std::uint32_t chosen = chooseChart(scene_, rays(), field_, params, camera);
     if (!chart_ || chart_->chart() != chosen) chart_.emplace(scene_, field_, chosen);
-    chart_->draw(program("texels"), irradianceAtlas);
+    chart_->draw(shaders_.program("texels", {}), irradianceAtlas);
 }
 
 Drawings::Subfield& Drawings::subfieldOf(const DiagramParams& params, const Camera& camera) {
@@ -71,7 +65,7 @@ void Drawings::subfield(const View& view, const DiagramParams& params, const Cam
     Subfield& drawn = subfieldOf(params, camera);
     if (!edges_) edges_ = makeEdgeBuffer(meshEdges(scene_));
     const TextureObject* picture =
-        drawn.glass ? &drawn.glass->draw(program("glass"), view) : nullptr;
+        drawn.glass ? &drawn.glass->draw(shaders_.program("glass", {}), view) : nullptr;
     const Sphere sphere{field_.frame.centre, field_.frame.radius};
     lines_.begin(view, {subfield::kPens, subfield::kColors, DepthCue(sphere, view.eye)});
     lines_.beginInk();

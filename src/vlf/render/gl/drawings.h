@@ -24,7 +24,7 @@ namespace vlf::gl {
 /// view in shared::kViewBlock.
 class Drawings {
   public:
-    Drawings(const Scene& scene, const LightField& field, const ShaderLibrary& shaders)
+    Drawings(const Scene& scene, const LightField& field, ShaderLibrary& shaders)
         : scene_(scene), field_(field), shaders_(shaders), lines_(shaders) {}
 
     /// `drawTriangles` draws those of the room, see LinePass::beginDepth.
@@ -55,13 +55,11 @@ class Drawings {
     const RayScene& rays();
     const DirectionSet& directionSet();
     Subfield& subfieldOf(const DiagramParams& params, const Camera& camera);
-    GLuint program(const std::string& name);
 
     const Scene& scene_;
     const LightField& field_;
-    const ShaderLibrary& shaders_;
+    ShaderLibrary& shaders_;
     LinePass lines_;
-    std::map<std::string, Program> programs_;
     std::optional<RayScene> rays_;
     std::optional<DirectionSet> directionSet_;
     std::optional<WireframeDrawing> wireframe_;

@@ -108,12 +108,6 @@ std::uint64_t DrawingTarget::bytes() const {
     return perPixel * static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
 }
 
-GLuint LinePass::program(const std::string& name, const Defines& defines) {
-    Program& p = programs_[{name, defines}];
-    if (!p) p = shaders_.program(name, defines);
-    return p.id();
-}
-
 void LinePass::begin(const View& view, const LineStyle& style) {
     assert(style.pens.size() <= kMostPens && style.sheets.size() <= kMostSheets);
     view_ = view;
@@ -142,7 +136,7 @@ void LinePass::beginDepth() {
     // gets within it.
     glEnable(GL_POLYGON_OFFSET_FILL);
     glPolygonOffset(1, 1);
-    glUseProgram(program("depth", {}));
+    glUseProgram(shaders_.program("depth", {}));
 }
 
 void LinePass::beginInk() {
@@ -156,7 +150,7 @@ void LinePass::beginInk() {
 }
 
 void LinePass::draw(const LineBuffer& lines, const Defines& kind) {
-    glUseProgram(program("line", kind));
+    glUseProgram(shaders_.program("line", kind));
     for (const int unit : {kLineUnit, kRoomDepthUnit}) glBindSampler(static_cast<GLuint>(unit), 0);
     glBindTextureUnit(kLineUnit, lines.texture.id());
     if (!depth_.textures.empty()) glBindTextureUnit(kRoomDepthUnit, depth_.textures[0].id());
@@ -172,7 +166,7 @@ void LinePass::finish(GLuint framebuffer, const TextureObject* picture) {
     glDisable(GL_BLEND);
     Defines kind{{"SHEETS", std::to_string(sheets_)}};
     if (picture) kind.emplace("PICTURE", "1");
-    glUseProgram(program("sheets", kind));
+    glUseProgram(shaders_.program("sheets", kind));
     for (std::size_t i = 0; i < ink_.textures.size(); ++i)
         glBindTextureUnit(static_cast<GLuint>(kInkUnit + i), ink_.textures[i].id());
     if (picture) glBindTextureUnit(kPaperUnit, picture->id());

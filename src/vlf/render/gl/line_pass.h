@@ -56,7 +56,7 @@ struct LineStyle {
 /// of draw; finish.
 class LinePass {
   public:
-    explicit LinePass(const ShaderLibrary& shaders) : shaders_(shaders) {}
+    explicit LinePass(ShaderLibrary& shaders) : shaders_(shaders) {}
 
     void begin(const View& view, const LineStyle& style);
     /// The triangles drawn next, positions at shared::kPositionAttribute, hide lines.
@@ -72,10 +72,7 @@ class LinePass {
     std::uint64_t bytes() const { return ink_.bytes() + depth_.bytes(); }
 
   private:
-    GLuint program(const std::string& name, const Defines& defines);
-
-    const ShaderLibrary& shaders_;
-    std::map<std::pair<std::string, Defines>, Program> programs_;
+    ShaderLibrary& shaders_;
     Buffer data_ = makeBuffer(nullptr, sizeof(shared::DrawingData), GL_DYNAMIC_STORAGE_BIT);
     VertexArray noAttributes_ = makeVertexArray();
     DrawingTarget ink_, depth_;

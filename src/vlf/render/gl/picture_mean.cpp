@@ -1,7 +1,6 @@
 #include "vlf/render/gl/picture_mean.h"
 
 #include "vlf/render/gl/gl_state.h"
-#include "vlf/render/gl/shader_library.h"
 #include "vlf/render/gl/tone_data.h"
 
 namespace vlf::gl {
@@ -9,10 +8,10 @@ namespace vlf::gl {
 using namespace shared;
 
 PictureMean::PictureMean(const std::string& shaderFolder)
-    : viewBuffer_(makeBuffer(nullptr, sizeof(ViewData), GL_DYNAMIC_STORAGE_BIT)) {
-    const ShaderLibrary shaders(shaderFolder);
-    add_ = shaders.program("picture_mean", {{"ADD", "1"}});
-    show_ = shaders.program("picture_mean", {});
+    : shaders_(shaderFolder),
+      viewBuffer_(makeBuffer(nullptr, sizeof(ViewData), GL_DYNAMIC_STORAGE_BIT)) {
+    add_ = shaders_.program("picture_mean", {{"ADD", "1"}});
+    show_ = shaders_.program("picture_mean", {});
 }
 
 void PictureMean::restart(int width, int height) {
@@ -30,7 +29,7 @@ void PictureMean::add(const FloatTarget& picture, int width, int height, float w
     glEnable(GL_BLEND);
     glBlendEquation(GL_FUNC_ADD);
     glBlendFunc(GL_ONE, GL_ONE);
-    glProgramUniform1f(add_.id(), kWeightLocation, weight);
+    glProgramUniform1f(add_, kWeightLocation, weight);
     draw(add_, picture, width, height);
 }
 
@@ -47,17 +46,16 @@ void PictureMean::show(const View& view, const RenderSettings& settings, GLuint 
     draw(show_, sum_, sum_.width, sum_.height);
 }
 
-void PictureMean::draw(const Program& program, const FloatTarget& picture, int width,
-                       int height) const {
+void PictureMean::draw(GLuint program, const FloatTarget& picture, int width, int height) const {
     for (const GLenum off : {GL_DEPTH_TEST, GL_STENCIL_TEST, GL_CULL_FACE, GL_FRAMEBUFFER_SRGB})
         glDisable(off);
     glEnable(GL_SCISSOR_TEST);
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     glBindSampler(kPictureUnit, 0);
     glBindTextureUnit(kPictureUnit, picture.color.id());
-    glProgramUniform2f(program.id(), kSizeLocation, static_cast<float>(width),
+    glProgramUniform2f(program, kSizeLocation, static_cast<float>(width),
                        static_cast<float>(height));
-    glUseProgram(program.id());
+    glUseProgram(program);
     glBindVertexArray(nothing_.id());
     glDrawArrays(GL_TRIANGLES, 0, 3);
 }

@@ -3,6 +3,7 @@
 
 #include "vlf/render/gl/float_target.h"
 #include "vlf/render/gl/renderer.h"
+#include "vlf/render/gl/shader_library.h"
 
 #include <string>
 
@@ -25,9 +26,10 @@ class PictureMean {
     void show(const View& view, const RenderSettings& settings, GLuint framebuffer) const;
 
   private:
-    void draw(const Program& program, const FloatTarget& picture, int width, int height) const;
+    void draw(GLuint program, const FloatTarget& picture, int width, int height) const;
 
-    Program add_, show_;
+    ShaderLibrary shaders_;
+    GLuint add_ = 0, show_ = 0;
     Buffer viewBuffer_;
     VertexArray nothing_ = makeVertexArray();
     FloatTarget sum_;  ///< its alpha is the sum of the weights

@@ -73,23 +73,6 @@ TextureObject makeAtlasTexture(const IrradianceAtlas& atlas) {
     return texture;
 }
 
-/// Which shader draws a batch.
-struct Variant {
-    bool diffuseMap = false, emission = false, mirror = false, plain = false, traced = false;
-
-    auto operator<=>(const Variant&) const = default;
-
-    Defines defines() const {
-        Defines d;
-        if (diffuseMap) d.emplace("DIFFUSE_MAP", "1");
-        if (emission) d.emplace("EMISSION", "1");
-        if (mirror)
-            d.emplace("MIRROR", traced ? "\"traced_reflection.glsl\"" : "\"radiance_field.glsl\"");
-        if (plain) d.emplace("PLAIN", "1");
-        return d;
-    }
-};
-
 }  // namespace
 
 struct Renderer::Impl {
@@ -111,6 +94,7 @@ struct Renderer::Impl {
         viewBuffer = makeBuffer(nullptr, sizeof(ViewData), GL_DYNAMIC_STORAGE_BIT);
         nearest = kNearest * field.frame.radius;
         rayStart = rayEpsilon(scene);
+        makePrograms();
         memory.atlas = 4 * field.atlas.irradiance.size();
         memory.textures = textures.bytes();
     }
@@ -159,20 +143,27 @@ struct Renderer::Impl {
                             packed.data());
     }
 
-    GLuint program(const Variant& variant) {
-        Program& p = programs[variant];
-        if (!p) p = shaders.program("surface", variant.defines());
-        return p.id();
+    /// Those of mode field, so that no frame waits for them.
+    void makePrograms() {
+        for (const RoomBatch& batch : batches)
+            for (const LookupKind lookup : {LookupKind::depthCorrected, LookupKind::plain}) {
+                RenderSettings settings;
+                settings.lookup = lookup;
+                shaders.program("surface", definesOf(batch, settings));
+            }
     }
 
-    Variant variantOf(const RoomBatch& batch, const RenderSettings& settings) const {
-        Variant v;
-        v.diffuseMap = scene.materials[batch.material].diffuseTexture >= 0;
-        v.emission = maxComponent(Vec3(batch.data.emission)) > 0;
-        v.mirror = batch.mirror;
-        v.traced = batch.mirror && settings.mode == DisplayMode::raytraced;
-        v.plain = batch.mirror && !v.traced && settings.lookup == LookupKind::plain;
-        return v;
+    /// Of the variant of the shader that draws a batch.
+    Defines definesOf(const RoomBatch& batch, const RenderSettings& settings) const {
+        const bool traced = settings.mode == DisplayMode::raytraced;
+        Defines d;
+        if (scene.materials[batch.material].diffuseTexture >= 0) d.emplace("DIFFUSE_MAP", "1");
+        if (maxComponent(Vec3(batch.data.emission)) > 0) d.emplace("EMISSION", "1");
+        if (batch.mirror)
+            d.emplace("MIRROR", traced ? "\"traced_reflection.glsl\"" : "\"radiance_field.glsl\"");
+        if (batch.mirror && !traced && settings.lookup == LookupKind::plain)
+            d.emplace("PLAIN", "1");
+        return d;
     }
 
     void makeReady(DisplayMode mode) {
@@ -268,7 +259,7 @@ struct Renderer::Impl {
     void drawBatch(std::size_t i, const RenderSettings& settings) {
         const RoomBatch& batch = batches[i];
         const Material& material = scene.materials[batch.material];
-        glUseProgram(program(variantOf(batch, settings)));
+        glUseProgram(shaders.program("surface", definesOf(batch, settings)));
         (batch.cull ? glEnable : glDisable)(GL_CULL_FACE);
         textures.bind(kDiffuseUnit, material.diffuseTexture);
         textures.bind(kEmissionUnit, material.emissionTexture);
@@ -284,7 +275,6 @@ struct Renderer::Impl {
     ShaderLibrary shaders;
     SceneTextures textures;
     std::vector<RoomBatch> batches;
-    std::map<Variant, Program> programs;
     Buffer vertices, indices, elements, records, viewBuffer;
     std::vector<Buffer> materialBuffers;  ///< of each batch
     VertexArray vertexArray;
@@ -328,6 +318,10 @@ bool Renderer::canLookUp() const {
 
 std::uint64_t Renderer::lightChanges() const {
     return impl_->lightChanges;
+}
+
+void Renderer::reloadShaders() {
+    impl_->shaders.reload();
 }
 
 float Renderer::nearest() const {

@@ -82,6 +82,10 @@ class Renderer {
     /// How often the light has changed.
     std::uint64_t lightChanges() const;
 
+    /// The files of options.shaderFolder have changed: makes the shaders anew. Throws InputError
+    /// with the driver's message; the old ones are then kept.
+    void reloadShaders();
+
     const GpuMemory& memory() const;
 
     /// Distance of a near plane that suits the room, metres.
