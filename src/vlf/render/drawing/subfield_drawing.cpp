@@ -140,6 +140,7 @@ Camera subfieldOverview(const Camera& camera, const FieldFrame& frame, const Vec
     overview.eye = overview.look - distance * glm::normalize(view.forward - 0.3f * view.up);
     overview.up = view.up;
     overview.verticalFov = kFov;
+    overview.shift = Vec2(0);
     return overview;
 }
 

@@ -18,7 +18,9 @@ View viewOf(const Camera& camera, int width, int height, float nearest) {
     const Vec3 right = glm::normalize(glm::cross(forward, glm::normalize(camera.up)));
     const Vec3 up = glm::cross(right, forward);
     const float f = 1 / std::tan(0.5f * camera.verticalFov * (kPi / 180));
-    const Vec3 rows[2] = {f * height / width * right, f * up};
+    const Vec2 scale(f * height / width, f);
+    const Vec2 shift = scale * camera.shift;
+    const Vec3 rows[2] = {scale.x * right - shift.x * forward, scale.y * up - shift.y * forward};
     View view;
     view.eye = camera.eye;
     view.width = width;
