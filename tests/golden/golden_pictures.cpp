@@ -1,6 +1,11 @@
 #include "golden/golden_pictures.h"
 
 #include "vlf/image/tone_map.h"
+#include "vlf/render/gl/float_target.h"
+#include "vlf/render/gl/headless_context.h"
+#include "vlf/render/gl/progressive.h"
+#include "vlf/render/gl/read_framebuffer.h"
+#include "vlf/render/gl/still.h"
 
 namespace vlf::test {
 
@@ -17,6 +22,14 @@ GoldenPicture lookedUp(const std::string& scene, const std::string& camera, Look
     const bool plain = lookup == LookupKind::plain;
     return {scene, camera, plain ? "plain" : "field", kBakedLight, exposure, DisplayMode::field,
             lookup};
+}
+
+/// By OpenGL, in a mode whose name is `shows`.
+GoldenPicture byOpenGl(const std::string& scene, const std::string& camera, DisplayMode mode,
+                       const std::string& shows, float exposure) {
+    GoldenPicture picture{scene, camera, "gl-" + shows, kBakedLight, exposure, mode};
+    picture.openGl = true;
+    return picture;
 }
 
 GoldenPicture wireframe(const std::string& scene, const std::string& camera) {
@@ -46,6 +59,10 @@ const std::vector<GoldenPicture>& goldenPictures() {
         light("mirror-room", "mirror", 0),
         lookedUp("mirror-room", "mirror", LookupKind::depthCorrected, 0),
         lookedUp("mirror-room", "mirror", LookupKind::plain, 0),
+        byOpenGl("office", "mirror", DisplayMode::raytraced, "raytraced", 0),
+        byOpenGl("caustic", "patch", DisplayMode::raytraced, "raytraced", 0),
+        byOpenGl("mirror-room", "mirror", DisplayMode::raytraced, "raytraced", 0),
+        byOpenGl("mirror-room", "mirror", DisplayMode::progressive, "progressive", 0),
         wireframe("cornell", "corner"),
         wireframe("mirror-room", "statue"),
         diagram("mirror-room", "front", DiagramKind::directions, "directions"),
@@ -57,6 +74,32 @@ const std::vector<GoldenPicture>& goldenPictures() {
     return kPictures;
 }
 
+namespace {
+
+/// What mode progressive comes to, as the display shows it.
+Image progressiveAtRest(Renderer& renderer, const GoldenPicture& picture, const Camera& camera) {
+    const gl::FloatTarget target(kWidth, kHeight);
+    ProgressiveRenderer progressive(renderer);
+    const View view = viewOf(camera, kWidth, kHeight, renderer.nearest());
+    RenderSettings settings;
+    settings.exposure = picture.exposure;
+    while (progressive.samples() < ProgressiveRenderer::kSamples)
+        progressive.draw(view, settings, target.framebuffer.id());
+    return readFramebuffer(target.framebuffer.id(), kWidth, kHeight);
+}
+
+Image renderByOpenGl(const BakedExample& baked, const GoldenPicture& picture,
+                     const StillParams& params) {
+    const gl::HeadlessContext context;
+    Renderer renderer(baked.scene, baked.field);
+    if (picture.mode == DisplayMode::progressive)
+        return progressiveAtRest(renderer, picture, params.camera);
+    Progress progress;
+    return toneMap(renderStill(renderer, params, progress), picture.exposure, ToneCurve::filmic);
+}
+
+}  // namespace
+
 Image renderGolden(const BakedExample& baked, const GoldenPicture& picture) {
     StillParams params;
     params.camera = baked.camera(picture.camera);
@@ -66,6 +109,7 @@ Image renderGolden(const BakedExample& baked, const GoldenPicture& picture) {
     params.mode = picture.mode;
     params.lookup = picture.lookup;
     params.diagram.kind = picture.diagram;
+    if (picture.openGl) return renderByOpenGl(baked, picture, params);
     Progress progress;
     const Image image = renderStill(baked.scene, baked.rays, baked.field, params, progress);
     return showsRadiance(picture.mode) ? toneMap(image, picture.exposure, ToneCurve::filmic)

@@ -18,6 +18,7 @@ struct GoldenPicture {
     DisplayMode mode = DisplayMode::raytraced;
     LookupKind lookup = LookupKind::depthCorrected;
     DiagramKind diagram = DiagramKind::directions;
+    bool openGl = false;  ///< drawn by the GPU
 
     std::string name() const { return scene + "-" + camera + "-" + shows; }
 };
