@@ -258,7 +258,7 @@ void addRender(CLI::App& app, const Globals& globals) {
         ->excludes("--eye");
     command
         ->add_option("--backend", options->backend,
-                     "Who draws: the CPU in every mode, or OpenGL, without a window, mode field")
+                     "Who draws: the CPU, or OpenGL, without a window")
         ->transform(CLI::CheckedTransformer(kBackendNames))
         ->option_text("cpu|gl [cpu]");
     addModeOptions(*command, options->still);

@@ -18,9 +18,9 @@ struct GoldenPicture {
     DisplayMode mode = DisplayMode::raytraced;
     LookupKind lookup = LookupKind::depthCorrected;
     DiagramKind diagram = DiagramKind::directions;
-    bool byOpenGl = false;
+    bool openGl = false;  ///< drawn by the GPU
 
-    std::string name() const { return nameByCpu() + (byOpenGl ? "-gl" : ""); }
+    std::string name() const { return scene + "-" + camera + (openGl ? "-gl-" : "-") + shows; }
     std::string nameByCpu() const { return scene + "-" + camera + "-" + shows; }
 };
 

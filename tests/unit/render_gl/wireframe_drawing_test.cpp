@@ -2,11 +2,11 @@
 
 #include "open_gl.h"
 #include "small_rooms.h"
+#include "support/analytic_scenes.h"
 #include "vlf/image/srgb.h"
 #include "vlf/render/cpu/projection.h"
 #include "vlf/render/drawing/pen.h"
 #include "vlf/render/gl/read_framebuffer.h"
-#include "vlf/scene/generate/scene_builder.h"
 
 #include <algorithm>
 
@@ -37,11 +37,6 @@ LightField unlit(const Scene& scene) {
     return field;
 }
 
-double flipOf(const Image& picture, const Image& reference) {
-    const auto error = flip(picture, reference).error;
-    return std::accumulate(error.begin(), error.end(), 0.0) / static_cast<double>(error.size());
-}
-
 }  // namespace
 
 // Lines end up to a stroke of two pixels earlier or later: a pixel's depth stands for a ray.
@@ -57,7 +52,7 @@ TEST_F(OpenGl, DrawsWireframesAsTheCpuDoes) {
             Progress progress;
             const Image reference =
                 renderStill(room->scene, room->rays, room->field, params, progress);
-            EXPECT_LT(flipOf(draw(room->scene, room->field, params), reference), 0.015)
+            EXPECT_LT(flip(draw(room->scene, room->field, params), reference).mean, 0.015)
                 << camera << (normals ? ", normals" : "");
         }
     }

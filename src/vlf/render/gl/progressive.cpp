@@ -17,8 +17,10 @@ using Clock = std::chrono::steady_clock;
 /// What is there before the first sample counts so little in the mean that a sample replaces it.
 constexpr float kFirstWeight = 1e-6f;
 constexpr int kSmallestTile = 32;    ///< pixels along a side
-constexpr double kTileShare = 0.25;  ///< of the time of a call, for one tile
-constexpr int kCoarsest = 16;        ///< pixels of the view along a side of one that is drawn
+constexpr double kTileShare = 0.25;  ///< of the time for tiles, for one of them
+constexpr double kWorkShare =
+    0.25;                      ///< of the time of a call, for tiles, however long showing takes
+constexpr int kCoarsest = 16;  ///< pixels of the view along a side of one that is drawn
 
 /// What the samples depend on.
 struct Subject {
@@ -56,7 +58,6 @@ struct ProgressiveRenderer::Impl {
     }
 
     void draw(const View& view, const RenderSettings& settings, GLuint framebuffer, double budget) {
-        const Clock::time_point start = Clock::now();
         const Subject wanted{view.clipFromWorld,
                              view.eye,
                              view.width,
@@ -73,9 +74,10 @@ struct ProgressiveRenderer::Impl {
             whole.part.reset();
             renderer.draw(whole, atOnce, framebuffer);
         } else {
-            const bool begins = !begun;
-            if (begins) begin(budget);
-            if (!moved) refine(start, budget - showSeconds, begins);
+            if (begun)
+                refine(std::max(budget - showSeconds, kWorkShare * budget));
+            else
+                begin(budget);
             show(view, settings, framebuffer);
         }
         glFinish();
@@ -134,16 +136,15 @@ struct ProgressiveRenderer::Impl {
         if (share < 0.2 && coarseness > 1) coarseness /= 2;
     }
 
-    /// Draws tiles of the sample in work until `budget` seconds have passed since `start`: one at
-    /// least, unless other work has been done.
-    void refine(Clock::time_point start, double budget, bool worked) {
-        while (samples < kSamples) {
+    /// Draws tiles of the sample in work for `budget` seconds, one at least.
+    void refine(double budget) {
+        const Clock::time_point start = Clock::now();
+        for (bool first = true; samples < kSamples; first = false) {
             if (tiles.empty()) tiles.push_back({0, 0, subject.width, subject.height});
+            while (clock.shading(pixelsOf(tiles.back())) > kTileShare * budget && split()) continue;
             const PixelRectangle tile = tiles.back();
-            if (clock.shading(pixelsOf(tile)) > kTileShare * budget && split()) continue;
-            if (worked && secondsSince(start) + clock.drawing(pixelsOf(tile)) > budget) return;
+            if (!first && secondsSince(start) + clock.drawing(pixelsOf(tile)) > budget) return;
             drawTile(tile);
-            worked = true;
         }
     }
 
