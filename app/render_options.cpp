@@ -104,6 +104,8 @@ void addStereoOptions(CLI::App& command, StereoOptions& stereo) {
         ->check(numberWithin(1e-3, 1e6))
         ->type_name("METRES")
         ->needs(layout);
+    for (const char* name : {"--stereo", "--eye-separation", "--convergence"})
+        command.get_option(name)->group("Two eyes");
 }
 
 void addMoment(CLI::App& command, const char* name, std::optional<Moment>& moment,
@@ -141,6 +143,9 @@ void addFilmOptions(CLI::App& command, FilmOptions& film) {
     command.add_option("--log", film.log, "Write every frame's times and pose (.csv or .json)")
         ->check(frameLogNameProblem, "log name")
         ->type_name("FILE");
+    for (const char* name :
+         {"--path", "--tour", "--film", "--fps", "--crf", "--from", "--to", "--log"})
+        command.get_option(name)->group("Moving camera");
 }
 
 void requirePictureNames(const RenderOptions& options) {

@@ -357,10 +357,10 @@ class Film(Case):
 
     def test_what_makes_no_film_is_a_usage_error(self):
         for options, says in [
-                (["--film", "a.mp4", "--size", "161x120"], "162x120"),
                 (["--film", "a.avi"], ".mp4"),
                 (["-o", "a.png"], "%05d"),
                 (["-o", "a%d-%d.png"], "%05d"),
+                (["-o", "a%5d.png"], "%05d"),
                 ([], "--film"),
                 (["--film", "a.mp4", "--fps", "0"], "--fps"),
                 (["--film", "a.mp4", "--from", "soon"], "--from"),
@@ -369,6 +369,8 @@ class Film(Case):
                 (["--film", "a.mp4", "-o", "b%d.png"], "--film")]:
             self.film(*options, code=USAGE, says=[says])
         self.run_vlf("render", "room.vlf", "--film", "a.mp4", code=USAGE, says=["--path"])
+        self.run_vlf("render", "room.vlf", "--tour", "--film", "a.mp4", "--size", "161x120",
+                     code=USAGE, says=["even", "162x120"])
         self.run_vlf("render", "room.vlf", "-o", "a.png", "--log", "a.csv", code=USAGE,
                      says=["--log"])
         self.assertEqual(self.files(), sorted(["room.vlf", "walk.json"] + self.scene_files()))
@@ -507,16 +509,20 @@ class Interrupt(Case):
     LONGEST = 10  # seconds until the program ends, on a busy machine and with sanitizers
 
     def interrupt(self, stage, *arguments):
-        """Starts the program, interrupts it when the stage has begun and checks how it ends."""
+        """Starts the program, interrupts it when the stage has begun and checks how it ends.
+
+        As at a terminal, the signal goes to all processes of the group.
+        """
         process = subprocess.Popen([PROGRAM, *arguments], cwd=self.folder, text=True,
-                                   stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+                                   stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                                   start_new_session=True)
         said = []
         for line in process.stdout:
             said.append(line)
             if line.startswith(stage):
                 break
         time.sleep(0.2)
-        process.send_signal(signal.SIGINT)
+        os.killpg(process.pid, signal.SIGINT)
         rest, _ = process.communicate(timeout=self.LONGEST)
         self.assertEqual(process.returncode, INTERRUPTED, "".join(said) + rest)
 

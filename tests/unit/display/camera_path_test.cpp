@@ -167,6 +167,20 @@ TEST(PathRecorder, TheLaterOfTwoPosesAtATimeHolds) {
     recorder.record(0, standing({1, 0, 0}));
     recorder.record(0, standing({2, 0, 0}));
     EXPECT_EQ(recorder.path().at(0).eye.x, 2);
+    recorder.record(1e-9, standing({3, 0, 0}));
+    EXPECT_EQ(recorder.path().at(0).eye.x, 3);
+}
+
+TEST(PathRecorder, NothingIsSeenBetweenTheEndsOfAJump) {
+    PathRecorder recorder;
+    recorder.jump(0, standing({0, 0, 0}));
+    recorder.record(0.5, standing({0, 0, 1}));
+    recorder.jump(0.6, standing({5, 0, 0}));
+    recorder.record(0.7, standing({5, 0, 1}));
+    const CameraPath path = recorder.path();
+    for (double t = 0; t < 0.7; t += 0.00099) EXPECT_EQ(path.at(t).eye.x, t < 0.6 ? 0 : 5) << t;
+    EXPECT_EQ(path.at(0.6).eye, Vec3(5, 0, 0));
+    EXPECT_EQ(path.at(0.59).eye, Vec3(0, 0, 1));
 }
 
 TEST(Tour, RestsAtEveryCameraAndStrollsBetween) {
