@@ -145,10 +145,11 @@ void addRender(CLI::App& app, const Globals& globals) {
     addRenderOptions(*command, *options);
     command->footer(
         "Modes:\n"
-        "  raytraced  diffuse light from the field, mirrors by tracing reflections\n"
-        "  field      diffuse light and mirrors from the field, no reflection traced\n"
-        "  wireframe  a line drawing; hidden edges faint\n"
-        "  diagram    the structure of the field (--diagram)\n"
+        "  raytraced    diffuse light from the field, mirrors by tracing reflections\n"
+        "  field        diffuse light and mirrors from the field, no reflection traced\n"
+        "  progressive  what that mode of a window comes to at rest: as raytraced\n"
+        "  wireframe    a line drawing; hidden edges faint\n"
+        "  diagram      the structure of the field (--diagram)\n"
         "--exposure and --tone have no effect on drawings.\n\n"
         "Stereo:\n"
         "  side-by-side  both pictures in one, twice as wide\n"

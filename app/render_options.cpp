@@ -10,6 +10,7 @@ namespace vlf::app {
 
 const std::map<std::string, DisplayMode> kModeNames{{"raytraced", DisplayMode::raytraced},
                                                     {"field", DisplayMode::field},
+                                                    {"progressive", DisplayMode::progressive},
                                                     {"wireframe", DisplayMode::wireframe},
                                                     {"diagram", DisplayMode::diagram}};
 const std::map<std::string, Backend> kBackendNames{{"cpu", Backend::cpu}, {"gl", Backend::gl}};
@@ -59,7 +60,7 @@ CLI::Validator numberWithin(double least, double most) {
 void addModeOptions(CLI::App& command, StillParams& still) {
     command.add_option("--mode", still.mode, "What to show; see below")
         ->transform(CLI::CheckedTransformer(kModeNames))
-        ->option_text("raytraced|field|wireframe|diagram [raytraced]");
+        ->option_text("raytraced|field|progressive|wireframe|diagram [raytraced]");
     command
         .add_option("--lookup", still.lookup,
                     "Mode field: correct the lookup by the depth of what is seen, or not")
@@ -174,7 +175,7 @@ void addRenderOptions(CLI::App& command, RenderOptions& options) {
         ->excludes("--eye");
     command
         .add_option("--backend", options.backend,
-                    "Who draws: the CPU in every mode, or OpenGL, without a window, mode field")
+                    "Who draws: the CPU in every mode, or OpenGL without a window")
         ->transform(CLI::CheckedTransformer(kBackendNames))
         ->option_text("cpu|gl [cpu]");
     addModeOptions(command, options.still);

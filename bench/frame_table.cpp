@@ -1,4 +1,5 @@
-// Frame times of the OpenGL renderer against those of the same room without its mirrors:
+// Frame times of the OpenGL renderer against a plain textured rasterisation of the same views, and
+// against the same room without its mirrors:
 // frame_table FIELD [--camera NAME] [--width W] [--height H] [--frames N]
 
 #include "vlf/io/field_file.h"
@@ -73,19 +74,19 @@ void drawFrames(const Options& options, const Camera& camera, std::vector<Way>& 
 
 void measure(const Options& options, const BakedRoom& room, const Camera& camera) {
     const BakedRoom plainRoom = withoutMirrors(room);
-    Renderer renderer(room.scene, room.field), plain(plainRoom.scene, plainRoom.field);
-    RenderSettings raster;
-    raster.tone = ToneCurve::clamp;
+    Renderer renderer(room.scene, room.field), walls(plainRoom.scene, plainRoom.field);
+    Renderer textured(plainRoom.scene, plainRoom.field, {VLF_PLAIN_SHADERS});
     RenderSettings plainLookup;
     plainLookup.lookup = LookupKind::plain;
-    std::vector<Way> ways{{"mirrors as walls", plain, raster, {}},
+    std::vector<Way> ways{{"plain rasterisation", textured, {}, {}},
+                          {"mirrors as walls", walls, {}, {}},
                           {"field, plain", renderer, plainLookup, {}},
                           {"field, depth", renderer, {}, {}}};
     drawFrames(options, camera, ways);
     const double base = percentile(ways[0].milliseconds, 0.5);
     for (const Way& way : ways) {
         const double median = percentile(way.milliseconds, 0.5);
-        std::printf("%-12s %-18s %7.2f ms %6.1f fps %5.2fx  p99/median %.2f\n", camera.name.c_str(),
+        std::printf("%-12s %-20s %7.2f ms %6.1f fps %5.2fx  p99/median %.2f\n", camera.name.c_str(),
                     way.name, median, 1000 / median, median / base,
                     percentile(way.milliseconds, 0.99) / median);
     }

@@ -41,7 +41,7 @@ TEST(View, ShiftsThePictureAsTheCpuDoes) {
 
 TEST(View, AnOffsetSamplesElsewhereInThePixel) {
     const Vec3 p(-1, 1, -2);
-    const Vec2 moved = pixelOf(viewOf(kCamera, 320, 200, 0.01f, {0.25f, -0.5f}), p) -
+    const Vec2 moved = pixelOf(shifted(viewOf(kCamera, 320, 200, 0.01f), {0.25f, -0.5f}), p) -
                        pixelOf(viewOf(kCamera, 320, 200, 0.01f), p);
     EXPECT_NEAR(moved.x, -0.25f, 1e-3f);
     EXPECT_NEAR(moved.y, 0.5f, 1e-3f);

@@ -25,6 +25,12 @@ StateGuard::StateGuard() {
     glGetIntegerv(GL_VERTEX_ARRAY_BINDING, &vertexArray_);
     glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &drawBuffer_);
     glGetIntegerv(GL_READ_FRAMEBUFFER_BINDING, &readBuffer_);
+    glGetIntegerv(GL_BLEND_EQUATION_RGB, &blendEquation_[0]);
+    glGetIntegerv(GL_BLEND_EQUATION_ALPHA, &blendEquation_[1]);
+    glGetIntegerv(GL_BLEND_SRC_RGB, &blendFunction_[0]);
+    glGetIntegerv(GL_BLEND_DST_RGB, &blendFunction_[1]);
+    glGetIntegerv(GL_BLEND_SRC_ALPHA, &blendFunction_[2]);
+    glGetIntegerv(GL_BLEND_DST_ALPHA, &blendFunction_[3]);
     glGetIntegerv(GL_DEPTH_FUNC, &depthFunction_);
     glGetIntegerv(GL_CULL_FACE_MODE, &cullFace_);
     glGetIntegerv(GL_FRONT_FACE, &frontFace_);
@@ -55,6 +61,10 @@ StateGuard::~StateGuard() {
     glBindVertexArray(static_cast<GLuint>(vertexArray_));
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, static_cast<GLuint>(drawBuffer_));
     glBindFramebuffer(GL_READ_FRAMEBUFFER, static_cast<GLuint>(readBuffer_));
+    const auto e = [](GLint value) { return static_cast<GLenum>(value); };
+    glBlendEquationSeparate(e(blendEquation_[0]), e(blendEquation_[1]));
+    glBlendFuncSeparate(e(blendFunction_[0]), e(blendFunction_[1]), e(blendFunction_[2]),
+                        e(blendFunction_[3]));
     glDepthFunc(static_cast<GLenum>(depthFunction_));
     glCullFace(static_cast<GLenum>(cullFace_));
     glFrontFace(static_cast<GLenum>(frontFace_));

@@ -34,6 +34,7 @@ class StateGuard {
     GLfloat clearDepth_ = 1;
     GLboolean depthMask_ = GL_TRUE;
     GLint program_ = 0, vertexArray_ = 0, drawBuffer_ = 0, readBuffer_ = 0, activeTexture_ = 0;
+    GLint blendEquation_[2] = {0, 0}, blendFunction_[4] = {0, 0, 0, 0};
     GLint depthFunction_ = 0, cullFace_ = 0, frontFace_ = 0, uniformBuffer_ = 0;
 };
 

@@ -3,10 +3,13 @@
 #include "vlf/base/error.h"
 #include "vlf/render/gl/gl_object.h"
 #include "vlf/render/gl/gl_state.h"
+#include "vlf/render/gl/hit_buffers.h"
 #include "vlf/render/gl/packed_radiance.h"
 #include "vlf/render/gl/room_geometry.h"
 #include "vlf/render/gl/scene_textures.h"
 #include "vlf/render/gl/shader_library.h"
+#include "vlf/render/gl/tone_data.h"
+#include "vlf/trace/ray_scene.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -71,16 +74,17 @@ TextureObject makeAtlasTexture(const IrradianceAtlas& atlas) {
 
 /// Which shader draws a batch.
 struct Variant {
-    bool diffuseMap = false, emission = false, mirror = false, plain = false;
+    bool diffuseMap = false, emission = false, mirror = false, plain = false, traced = false;
 
     auto operator<=>(const Variant&) const = default;
 
     Defines defines() const {
         Defines d;
-        if (diffuseMap) d["DIFFUSE_MAP"] = "1";
-        if (emission) d["EMISSION"] = "1";
-        if (mirror) d["MIRROR"] = "\"radiance_field.glsl\"";
-        if (plain) d["PLAIN"] = "1";
+        if (diffuseMap) d.emplace("DIFFUSE_MAP", "1");
+        if (emission) d.emplace("EMISSION", "1");
+        if (mirror)
+            d.emplace("MIRROR", traced ? "\"traced_reflection.glsl\"" : "\"radiance_field.glsl\"");
+        if (plain) d.emplace("PLAIN", "1");
         return d;
     }
 };
@@ -89,26 +93,29 @@ struct Variant {
 
 struct Renderer::Impl {
     Impl(const Scene& scene, const LightField& field, const RendererOptions& options)
-        : shaders(options.shaderFolder), textures(scene), materials(scene.materials) {
+        : scene(scene),
+          charts(field.charts),
+          triangleCharts(field.triangleCharts),
+          shaders(options.shaderFolder),
+          textures(scene) {
         if (field.triangleCharts.size() != scene.triangles.size())
             throw InputError("the light field belongs to another scene: bake this one");
         const RoomGeometry room = makeRoomGeometry(scene, field);
-        if (!room.mirrorCharts.empty() && field.radiance.empty())
-            throw InputError(
-                "the light field holds no radiance of mirrors to look up: bake with radiance "
-                "directions");
+        canLookUp = room.mirrorCharts.empty() || !field.radiance.empty();
         loadGeometry(room);
         loadRadiance(field, packRadiance(field.radiance, room.mirrorCharts));
         atlas = makeAtlasTexture(field.atlas);
-        updateIrradiance(field.atlas);
+        loadIrradiance(field.atlas);
         viewBuffer = makeBuffer(nullptr, sizeof(ViewData), GL_DYNAMIC_STORAGE_BIT);
         nearest = kNearest * field.frame.radius;
+        rayStart = rayEpsilon(scene);
         memory.atlas = 4 * field.atlas.irradiance.size();
         memory.textures = textures.bytes();
     }
 
     void loadGeometry(const RoomGeometry& room) {
         batches = room.batches;
+        mirrorTriangles = room.mirrorTriangles;
         vertices = makeBuffer(room.vertices.data(), room.vertices.size() * sizeof(RoomVertex));
         indices = makeBuffer(room.indices.data(), room.indices.size() * sizeof(std::uint32_t));
         vertexArray = makeRoomVertexArray(vertices, indices);
@@ -129,7 +136,7 @@ struct Renderer::Impl {
         const RadianceField& r = field.radiance;
         const float diameter = 2 * field.frame.radius;
         viewData.fieldFrame = Vec4(field.frame.centre, static_cast<float>(r.cells - 1) / diameter);
-        viewData.field = {std::sqrt(0.5f * static_cast<float>(r.lines - 1)), r.lines,
+        viewData.field = {std::sqrt(0.5f * static_cast<float>(std::max(r.lines, 1) - 1)), r.lines,
                           0.5f * static_cast<float>(r.cells - 1),
                           kTolerance * diameter / static_cast<float>(std::max(r.cells, 1))};
         viewData.elementCode = {packed.longestDistance, packed.logSum.first, packed.logSum.step, 0};
@@ -140,7 +147,7 @@ struct Renderer::Impl {
         memory.radianceElements = packed.elements.size();
     }
 
-    void updateIrradiance(const IrradianceAtlas& light) {
+    void loadIrradiance(const IrradianceAtlas& light) {
         std::vector<std::uint32_t> packed(light.irradiance.size());
         std::transform(light.irradiance.begin(), light.irradiance.end(), packed.begin(),
                        packRgb9e5);
@@ -157,33 +164,46 @@ struct Renderer::Impl {
 
     Variant variantOf(const RoomBatch& batch, const RenderSettings& settings) const {
         Variant v;
-        v.diffuseMap = materials[batch.material].diffuseTexture >= 0;
+        v.diffuseMap = scene.materials[batch.material].diffuseTexture >= 0;
         v.emission = maxComponent(Vec3(batch.data.emission)) > 0;
         v.mirror = batch.mirror;
-        v.plain = batch.mirror && settings.lookup == LookupKind::plain;
+        v.traced = batch.mirror && settings.mode == DisplayMode::raytraced;
+        v.plain = batch.mirror && !v.traced && settings.lookup == LookupKind::plain;
         return v;
     }
 
+    void makeReady(DisplayMode mode) {
+        if (mode == DisplayMode::raytraced) {
+            if (!hits) hits.emplace(scene, charts, triangleCharts, mirrorTriangles);
+            memory.hits = hits->bytes();
+        } else if (mode != DisplayMode::field) {
+            throw InputError(
+                "OpenGL draws modes field, raytraced and progressive; render other "
+                "modes with --backend cpu");
+        } else if (!canLookUp) {
+            throw InputError(
+                "the light field holds no radiance of mirrors to look up: bake with "
+                "radiance directions, or trace reflections (mode raytraced)");
+        }
+    }
+
     void draw(const View& view, const RenderSettings& settings, GLuint framebuffer) {
+        makeReady(settings.mode);
         const StateGuard guard;
         viewData.clipFromWorld = view.clipFromWorld;
-        viewData.eye = Vec4(view.eye, 1);
-        viewData.tone = {std::exp2(settings.exposure), outputKind(settings), settings.textureBias,
-                         0};
+        viewData.eye = Vec4(view.eye, rayStart);
+        viewData.tone = toneData(settings);
         glNamedBufferSubData(viewBuffer.id(), 0, sizeof viewData, &viewData);
         prepare(view, framebuffer);
         for (std::size_t i = 0; i < batches.size(); ++i) drawBatch(i, settings);
     }
 
-    static float outputKind(const RenderSettings& settings) {
-        if (!settings.tone) return kWriteRadiance;
-        return *settings.tone == ToneCurve::filmic ? kWriteFilmic : kWriteClamped;
-    }
-
     void prepare(const View& view, GLuint framebuffer) {
         glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
         glViewport(view.x, view.y, view.width, view.height);
-        glScissor(view.x, view.y, view.width, view.height);
+        const PixelRectangle part =
+            view.part.value_or(PixelRectangle{view.x, view.y, view.width, view.height});
+        glScissor(part.x, part.y, part.width, part.height);
         glEnable(GL_SCISSOR_TEST);
         for (const GLenum off :
              {GL_BLEND, GL_STENCIL_TEST, GL_FRAMEBUFFER_SRGB, GL_POLYGON_OFFSET_FILL})
@@ -203,11 +223,12 @@ struct Renderer::Impl {
         glBindTextureUnit(kIrradianceUnit, atlas.id());
         glBindTextureUnit(kElementUnit, elementTexture.id());
         glBindTextureUnit(kRecordUnit, recordTexture.id());
+        if (hits) hits->bind();
     }
 
     void drawBatch(std::size_t i, const RenderSettings& settings) {
         const RoomBatch& batch = batches[i];
-        const Material& material = materials[batch.material];
+        const Material& material = scene.materials[batch.material];
         glUseProgram(program(variantOf(batch, settings)));
         (batch.cull ? glEnable : glDisable)(GL_CULL_FACE);
         textures.bind(kDiffuseUnit, material.diffuseTexture);
@@ -217,18 +238,24 @@ struct Renderer::Impl {
                        reinterpret_cast<const void*>(4 * std::size_t{batch.firstIndex}));
     }
 
+    const Scene& scene;
+    std::vector<Chart> charts;
+    std::vector<TriangleCharts> triangleCharts;
     ShaderLibrary shaders;
     SceneTextures textures;
-    std::vector<Material> materials;
     std::vector<RoomBatch> batches;
     std::map<Variant, Program> programs;
     Buffer vertices, indices, elements, records, viewBuffer;
     std::vector<Buffer> materialBuffers;  ///< of each batch
     VertexArray vertexArray;
     TextureObject atlas, elementTexture, recordTexture;
+    std::vector<std::uint32_t> mirrorTriangles;
+    std::optional<HitBuffers> hits;  ///< once reflections are traced
     ViewData viewData{};
     GpuMemory memory;
-    float nearest = 0;
+    float nearest = 0, rayStart = 0;  ///< metres
+    bool canLookUp = true;
+    std::uint64_t lightChanges = 0;
 };
 
 Renderer::Renderer(const Scene& scene, const LightField& field, const RendererOptions& options)
@@ -242,7 +269,16 @@ void Renderer::draw(const View& view, const RenderSettings& settings, unsigned f
 }
 
 void Renderer::updateIrradiance(const IrradianceAtlas& atlas) {
-    impl_->updateIrradiance(atlas);
+    impl_->loadIrradiance(atlas);
+    ++impl_->lightChanges;
+}
+
+bool Renderer::canLookUp() const {
+    return impl_->canLookUp;
+}
+
+std::uint64_t Renderer::lightChanges() const {
+    return impl_->lightChanges;
 }
 
 float Renderer::nearest() const {

@@ -1,10 +1,11 @@
 #pragma once
-// Pictures of a baked room by OpenGL 4.5, in a context of the host's. The same few lookups per
-// pixel in every room: diffuse light from the irradiance atlas, mirrors from the radiance field.
+// Pictures of a baked room by OpenGL 4.5, in a context of the host's. Diffuse light
+// comes from the irradiance atlas, mirrors from the radiance field, which is the same few lookups
+// per pixel in every room, or by tracing reflections.
 
 #include "vlf/field/light_field.h"
 #include "vlf/image/tone_map.h"
-#include "vlf/render/cpu/radiance_lookup.h"
+#include "vlf/render/cpu/still.h"
 #include "vlf/render/gl/view.h"
 #include "vlf/scene/scene.h"
 
@@ -20,6 +21,7 @@ struct RendererOptions {
 };
 
 struct RenderSettings {
+    DisplayMode mode = DisplayMode::field;
     LookupKind lookup = LookupKind::depthCorrected;  ///< of mirrors
     std::optional<ToneCurve> tone =
         ToneCurve::filmic;  ///< none: writes radiance, for float targets
@@ -31,28 +33,38 @@ struct RenderSettings {
 /// Bytes in the memory of the GPU.
 struct GpuMemory {
     std::uint64_t geometry = 0, atlas = 0, radiance = 0, textures = 0;
+    std::uint64_t hits = 0;  ///< of traced reflections, once they have been drawn
     std::uint64_t radianceElements = 0;
 
-    std::uint64_t total() const { return geometry + atlas + radiance + textures; }
+    std::uint64_t total() const { return geometry + atlas + radiance + textures + hits; }
 };
 
 /// Every call, construction and destruction included, needs the context current in which it was
 /// made; draw() leaves the context's state as it finds it.
 class Renderer {
   public:
-    /// Copies what it needs to the GPU. Throws InputError if the field is not of this scene, it has
-    /// mirrors but no radiance of them, the atlas or radiance field exceed what the GPU can hold,
-    /// or a shader of options.shaderFolder is at fault.
+    /// Copies what it needs to the GPU; of the scene, which must outlive it, what traced
+    /// reflections need, when they are first drawn. Throws InputError if the field is not of this
+    /// scene, or the atlas or radiance field exceed what the GPU can hold.
     Renderer(const Scene& scene, const LightField& field, const RendererOptions& options = {});
     ~Renderer();
     Renderer(Renderer&&) noexcept;
     Renderer& operator=(Renderer&&) noexcept;
 
-    /// Clears the view's rectangle of `framebuffer`, which needs a depth attachment, and draws.
+    /// Clears the view's part of `framebuffer`, which needs a depth attachment, and draws. Throws
+    /// InputError for modes other than `field` and `raytraced`, in mode field if the scene has
+    /// mirrors but the field no radiance of them (see canLookUp), if what mode raytraced needs
+    /// exceeds what the GPU can hold, or a shader of options.shaderFolder is at fault.
     void draw(const View& view, const RenderSettings& settings, unsigned framebuffer);
 
     /// The light has changed: the atlas is of the same charts as before.
     void updateIrradiance(const IrradianceAtlas& atlas);
+
+    /// Whether mode `field` can be drawn.
+    bool canLookUp() const;
+
+    /// How often the light has changed.
+    std::uint64_t lightChanges() const;
 
     const GpuMemory& memory() const;
 

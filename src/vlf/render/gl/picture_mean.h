@@ -1,0 +1,36 @@
+#pragma once
+// The weighted mean of pictures, pixel by pixel.
+
+#include "vlf/render/gl/float_target.h"
+#include "vlf/render/gl/renderer.h"
+
+#include <string>
+
+namespace vlf::gl {
+
+class PictureMean {
+  public:
+    /// Throws InputError if a shader of the folder is at fault.
+    explicit PictureMean(const std::string& shaderFolder);
+
+    /// Forgets all pictures.
+    void restart(int width, int height);
+
+    /// Adds `part` of a picture, which lies in the lower left width x height pixels of `picture`
+    /// and is stretched to the size of the mean.
+    void add(const FloatTarget& picture, int width, int height, float weight,
+             const PixelRectangle& part) const;
+
+    /// Draws the mean into the view's rectangle, with the exposure and tone curve of the settings.
+    void show(const View& view, const RenderSettings& settings, GLuint framebuffer) const;
+
+  private:
+    void draw(const Program& program, const FloatTarget& picture, int width, int height) const;
+
+    Program add_, show_;
+    Buffer viewBuffer_;
+    VertexArray nothing_ = makeVertexArray();
+    FloatTarget sum_;  ///< its alpha is the sum of the weights
+};
+
+}  // namespace vlf::gl
