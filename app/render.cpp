@@ -96,11 +96,9 @@ nlohmann::ordered_json toJson(const std::vector<Still>& stills) {
 }
 
 nlohmann::ordered_json toJson(const GpuMemory& memory) {
-    return {{"geometry", memory.geometry},
-            {"atlas", memory.atlas},
-            {"radiance", memory.radiance},
-            {"textures", memory.textures},
-            {"radianceElements", memory.radianceElements}};
+    return {{"geometry", memory.geometry}, {"atlas", memory.atlas},
+            {"radiance", memory.radiance}, {"textures", memory.textures},
+            {"drawings", memory.drawings}, {"radianceElements", memory.radianceElements}};
 }
 
 nlohmann::ordered_json toJson(const RenderOptions& options) {

@@ -1,11 +1,12 @@
-// Frame times of the OpenGL renderer against a plain textured rasterisation of the same views, and
-// against the same room without its mirrors:
-// frame_table FIELD [--camera NAME] [--width W] [--height H] [--frames N]
+// Frame times of the OpenGL renderer in each mode against a plain textured rasterisation of the
+// same views and against the same room without its mirrors, and of the calls in which mode
+// progressive comes to rest: frame_table FIELD [--camera NAME] [--width W] [--height H] [--frames
+// N] [--budget MS]
 
 #include "vlf/io/field_file.h"
 #include "vlf/render/gl/gl_object.h"
 #include "vlf/render/gl/headless_context.h"
-#include "vlf/render/gl/renderer.h"
+#include "vlf/render/gl/progressive.h"
 
 #include <algorithm>
 #include <chrono>
@@ -22,6 +23,7 @@ using namespace vlf;
 struct Options {
     std::string field, camera;
     int width = 1024, height = 768, frames = 60;
+    double budget = 33;  ///< milliseconds of a call in mode progressive
 };
 
 struct Target {
@@ -72,16 +74,52 @@ void drawFrames(const Options& options, const Camera& camera, std::vector<Way>& 
         }
 }
 
+/// How long the calls take in which a still view fills in.
+void measureRest(const Options& options, Renderer& renderer, const Camera& camera) {
+    using Clock = std::chrono::steady_clock;
+    using Milliseconds = std::chrono::duration<double, std::milli>;
+    const Target target(options.width, options.height);
+    ProgressiveRenderer progressive(renderer);
+    const View view = viewOf(camera, options.width, options.height, renderer.nearest());
+    std::vector<double> calls;
+    double firstSample = 0;
+    const Clock::time_point begin = Clock::now();
+    // The first call shows mode field.
+    for (int call = 0; call <= options.frames * 4; ++call) {
+        const Clock::time_point start = Clock::now();
+        progressive.draw(view, {}, target.framebuffer.id(), 1e-3 * options.budget);
+        glFinish();
+        if (call > 0) calls.push_back(Milliseconds(Clock::now() - start).count());
+        if (progressive.samples() > 0 && firstSample == 0)
+            firstSample = Milliseconds(Clock::now() - begin).count();
+    }
+    std::printf(
+        "%-12s %-18s median %.1f, p99 %.1f, longest %.1f ms a call; first sample %.0f ms, "
+        "%d samples after %zu calls\n",
+        camera.name.c_str(), "progressive", percentile(calls, 0.5), percentile(calls, 0.99),
+        percentile(calls, 1), firstSample, progressive.samples(), calls.size());
+}
+
 void measure(const Options& options, const BakedRoom& room, const Camera& camera) {
     const BakedRoom plainRoom = withoutMirrors(room);
     Renderer renderer(room.scene, room.field), walls(plainRoom.scene, plainRoom.field);
     Renderer textured(plainRoom.scene, plainRoom.field, {VLF_PLAIN_SHADERS});
-    RenderSettings plainLookup;
+    RenderSettings plainLookup, traced;
     plainLookup.lookup = LookupKind::plain;
-    std::vector<Way> ways{{"plain rasterisation", textured, {}, {}},
-                          {"mirrors as walls", walls, {}, {}},
-                          {"field, plain", renderer, plainLookup, {}},
-                          {"field, depth", renderer, {}, {}}};
+    traced.mode = DisplayMode::raytraced;
+    RenderSettings wireframe, diagram[4];
+    wireframe.mode = DisplayMode::wireframe;
+    for (int kind = 0; kind < 4; ++kind) {
+        diagram[kind].mode = DisplayMode::diagram;
+        diagram[kind].diagram.kind = static_cast<DiagramKind>(kind);
+        diagram[kind].diagramCamera = camera;
+    }
+    std::vector<Way> ways{
+        {"plain rasterisation", textured, {}, {}},   {"mirrors as walls", walls, {}, {}},
+        {"field, plain", renderer, plainLookup, {}}, {"field, depth", renderer, {}, {}},
+        {"raytraced", renderer, traced, {}},         {"wireframe", renderer, wireframe, {}},
+        {"directions", renderer, diagram[0], {}},    {"subfield", renderer, diagram[1], {}},
+        {"tile", renderer, diagram[2], {}},          {"chart", renderer, diagram[3], {}}};
     drawFrames(options, camera, ways);
     const double base = percentile(ways[0].milliseconds, 0.5);
     for (const Way& way : ways) {
@@ -90,6 +128,7 @@ void measure(const Options& options, const BakedRoom& room, const Camera& camera
                     way.name, median, 1000 / median, median / base,
                     percentile(way.milliseconds, 0.99) / median);
     }
+    measureRest(options, renderer, camera);
 }
 
 }  // namespace
@@ -102,6 +141,7 @@ int main(int argc, char** argv) {
     app.add_option("--width", options.width);
     app.add_option("--height", options.height);
     app.add_option("--frames", options.frames);
+    app.add_option("--budget", options.budget, "Milliseconds of a call in mode progressive");
     CLI11_PARSE(app, argc, argv);
     const BakedRoom room = readField(options.field);
     const gl::HeadlessContext context;

@@ -1,6 +1,8 @@
 #include "golden/golden_pictures.h"
 
 #include "vlf/image/tone_map.h"
+#include "vlf/render/gl/headless_context.h"
+#include "vlf/render/gl/still.h"
 
 namespace vlf::test {
 
@@ -30,6 +32,12 @@ GoldenPicture diagram(const std::string& scene, const std::string& camera, Diagr
     return picture;
 }
 
+GoldenPicture byOpenGl(GoldenPicture picture) {
+    picture.byOpenGl = true;
+    picture.limits = kDrawnByGpu;
+    return picture;
+}
+
 }  // namespace
 
 const std::vector<GoldenPicture>& goldenPictures() {
@@ -53,9 +61,25 @@ const std::vector<GoldenPicture>& goldenPictures() {
         diagram("mirror-room", "front", DiagramKind::tile, "tile"),
         diagram("mirror-room", "front", DiagramKind::chart, "chart", kBakedLight),
         diagram("cornell", "front", DiagramKind::chart, "chart", kBakedLight),
+        byOpenGl(wireframe("cornell", "corner")),
+        byOpenGl(wireframe("mirror-room", "statue")),
+        byOpenGl(diagram("mirror-room", "front", DiagramKind::directions, "directions")),
+        byOpenGl(diagram("mirror-room", "front", DiagramKind::subfield, "subfield")),
+        byOpenGl(diagram("mirror-room", "front", DiagramKind::tile, "tile")),
+        byOpenGl(diagram("mirror-room", "front", DiagramKind::chart, "chart")),
     };
     return kPictures;
 }
+
+namespace {
+
+Image renderByOpenGl(const BakedExample& baked, const StillParams& params, Progress& progress) {
+    const gl::HeadlessContext context;
+    Renderer renderer(baked.scene, baked.field);
+    return renderStill(renderer, params, progress);
+}
+
+}  // namespace
 
 Image renderGolden(const BakedExample& baked, const GoldenPicture& picture) {
     StillParams params;
@@ -67,7 +91,9 @@ Image renderGolden(const BakedExample& baked, const GoldenPicture& picture) {
     params.lookup = picture.lookup;
     params.diagram.kind = picture.diagram;
     Progress progress;
-    const Image image = renderStill(baked.scene, baked.rays, baked.field, params, progress);
+    const Image image = picture.byOpenGl
+                            ? renderByOpenGl(baked, params, progress)
+                            : renderStill(baked.scene, baked.rays, baked.field, params, progress);
     return showsRadiance(picture.mode) ? toneMap(image, picture.exposure, ToneCurve::filmic)
                                        : image;
 }

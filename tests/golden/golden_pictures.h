@@ -18,8 +18,10 @@ struct GoldenPicture {
     DisplayMode mode = DisplayMode::raytraced;
     LookupKind lookup = LookupKind::depthCorrected;
     DiagramKind diagram = DiagramKind::directions;
+    bool byOpenGl = false;
 
-    std::string name() const { return scene + "-" + camera + "-" + shows; }
+    std::string name() const { return nameByCpu() + (byOpenGl ? "-gl" : ""); }
+    std::string nameByCpu() const { return scene + "-" + camera + "-" + shows; }
 };
 
 const std::vector<GoldenPicture>& goldenPictures();

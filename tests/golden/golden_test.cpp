@@ -108,6 +108,15 @@ TEST(GoldenPictureSet, IsTheSameOnEveryInstructionSet) {
     useInstructionSet(best);
 }
 
+TEST(GoldenPictureSet, OfOpenGlIsNearThatOfTheCpu) {
+    for (const GoldenPicture& golden : goldenPictures()) {
+        if (!golden.byOpenGl) continue;
+        const Image byCpu = readImage((kKept / (golden.nameByCpu() + ".png")).string());
+        const PictureDifference d = difference(readImage(keptFile(golden).string()), byCpu);
+        EXPECT_LT(d.flip, 0.02) << golden.name();
+    }
+}
+
 TEST(GoldenPictureSet, HoldsNothingThatIsNotTested) {
     std::set<fs::path> tested, kept;
     for (const GoldenPicture& golden : goldenPictures()) tested.insert(keptFile(golden));

@@ -13,11 +13,11 @@ TextureObject image(GLenum format, int width, int height) {
 
 }  // namespace
 
-FloatTarget::FloatTarget(int width, int height)
-    : width(width),
-      height(height),
-      color(image(GL_RGBA32F, width, height)),
-      depth(image(GL_DEPTH_COMPONENT32F, width, height)),
+FloatTarget::FloatTarget(int w, int h)
+    : width(w),
+      height(h),
+      color(image(GL_RGBA32F, w, h)),
+      depth(image(GL_DEPTH_COMPONENT32F, w, h)),
       framebuffer(makeFramebuffer()) {
     glNamedFramebufferTexture(framebuffer.id(), GL_COLOR_ATTACHMENT0, color.id(), 0);
     glNamedFramebufferTexture(framebuffer.id(), GL_DEPTH_ATTACHMENT, depth.id(), 0);

@@ -12,7 +12,7 @@ struct FloatTarget {
     Framebuffer framebuffer;
 
     FloatTarget() = default;
-    FloatTarget(int width, int height);
+    FloatTarget(int w, int h);
 };
 
 }  // namespace vlf::gl

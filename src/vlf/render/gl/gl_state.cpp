@@ -20,6 +20,8 @@ StateGuard::StateGuard() {
     glGetBooleanv(GL_COLOR_WRITEMASK, colorMask_.data());
     glGetFloatv(GL_COLOR_CLEAR_VALUE, clearColor_.data());
     glGetFloatv(GL_DEPTH_CLEAR_VALUE, &clearDepth_);
+    glGetFloatv(GL_POLYGON_OFFSET_FACTOR, &offsetFactor_);
+    glGetFloatv(GL_POLYGON_OFFSET_UNITS, &offsetUnits_);
     glGetBooleanv(GL_DEPTH_WRITEMASK, &depthMask_);
     glGetIntegerv(GL_CURRENT_PROGRAM, &program_);
     glGetIntegerv(GL_VERTEX_ARRAY_BINDING, &vertexArray_);
@@ -56,6 +58,7 @@ StateGuard::~StateGuard() {
     glColorMask(colorMask_[0], colorMask_[1], colorMask_[2], colorMask_[3]);
     glClearColor(clearColor_[0], clearColor_[1], clearColor_[2], clearColor_[3]);
     glClearDepthf(clearDepth_);
+    glPolygonOffset(offsetFactor_, offsetUnits_);
     glDepthMask(depthMask_);
     glUseProgram(static_cast<GLuint>(program_));
     glBindVertexArray(static_cast<GLuint>(vertexArray_));

@@ -43,8 +43,8 @@ double pixelsOf(const PixelRectangle& r) {
 }  // namespace
 
 struct ProgressiveRenderer::Impl {
-    Impl(Renderer& renderer, const RendererOptions& options)
-        : renderer(renderer), mean(options.shaderFolder) {
+    Impl(Renderer& used, const RendererOptions& options)
+        : renderer(used), mean(options.shaderFolder) {
         // Compiles the shaders, too.
         mean.restart(1, 1);
         picture = FloatTarget(1, 1);

@@ -1,6 +1,7 @@
 #include "vlf/render/gl/renderer.h"
 
 #include "vlf/base/error.h"
+#include "vlf/render/gl/drawings.h"
 #include "vlf/render/gl/gl_object.h"
 #include "vlf/render/gl/gl_state.h"
 #include "vlf/render/gl/hit_buffers.h"
@@ -92,8 +93,9 @@ struct Variant {
 }  // namespace
 
 struct Renderer::Impl {
-    Impl(const Scene& scene, const LightField& field, const RendererOptions& options)
-        : scene(scene),
+    Impl(const Scene& shown, const LightField& field, const RendererOptions& options)
+        : scene(shown),
+          lightField(field),
           charts(field.charts),
           triangleCharts(field.triangleCharts),
           shaders(options.shaderFolder),
@@ -115,6 +117,7 @@ struct Renderer::Impl {
 
     void loadGeometry(const RoomGeometry& room) {
         batches = room.batches;
+        indexCount = static_cast<GLsizei>(room.indices.size());
         mirrorTriangles = room.mirrorTriangles;
         vertices = makeBuffer(room.vertices.data(), room.vertices.size() * sizeof(RoomVertex));
         indices = makeBuffer(room.indices.data(), room.indices.size() * sizeof(std::uint32_t));
@@ -173,13 +176,13 @@ struct Renderer::Impl {
     }
 
     void makeReady(DisplayMode mode) {
-        if (mode == DisplayMode::raytraced) {
+        if (!showsRadiance(mode)) {
+            if (!drawings) drawings.emplace(scene, lightField, shaders);
+        } else if (mode == DisplayMode::raytraced) {
             if (!hits) hits.emplace(scene, charts, triangleCharts, mirrorTriangles);
             memory.hits = hits->bytes();
         } else if (mode != DisplayMode::field) {
-            throw InputError(
-                "OpenGL draws modes field, raytraced and progressive; render other "
-                "modes with --backend cpu");
+            throw InputError("mode progressive takes many calls: it is ProgressiveRenderer's");
         } else if (!canLookUp) {
             throw InputError(
                 "the light field holds no radiance of mirrors to look up: bake with "
@@ -194,8 +197,44 @@ struct Renderer::Impl {
         viewData.eye = Vec4(view.eye, rayStart);
         viewData.tone = toneData(settings);
         glNamedBufferSubData(viewBuffer.id(), 0, sizeof viewData, &viewData);
+        if (settings.mode == DisplayMode::wireframe)
+            drawWireframe(view, settings, framebuffer);
+        else if (settings.mode == DisplayMode::diagram)
+            drawDiagram(view, settings, framebuffer);
+        else
+            drawRoom(view, settings, framebuffer);
+        if (drawings) memory.drawings = drawings->bytes();
+    }
+
+    void drawRoom(const View& view, const RenderSettings& settings, GLuint framebuffer) {
         prepare(view, framebuffer);
         for (std::size_t i = 0; i < batches.size(); ++i) drawBatch(i, settings);
+    }
+
+    void drawWireframe(const View& view, const RenderSettings& settings, GLuint framebuffer) {
+        prepare(view, framebuffer);
+        const auto drawTriangles = [&] {
+            glBindVertexArray(vertexArray.id());
+            glDrawElements(GL_TRIANGLES, indexCount, GL_UNSIGNED_INT, nullptr);
+        };
+        drawings->wireframe(view, settings.normals, drawTriangles, framebuffer);
+    }
+
+    void drawDiagram(const View& view, const RenderSettings& settings, GLuint framebuffer) {
+        const DiagramKind kind = settings.diagram.kind;
+        if (kind == DiagramKind::subfield || kind == DiagramKind::tile) {
+            prepare(view, framebuffer);
+            drawings->subfield(view, settings.diagram, settings.diagramCamera, framebuffer);
+            return;
+        }
+        RenderSettings beneath = settings;
+        beneath.mode = settings.diagramRoom;
+        makeReady(beneath.mode);
+        drawRoom(view, beneath, framebuffer);
+        if (kind == DiagramKind::directions)
+            drawings->directions(settings.ball);
+        else
+            drawings->chart(settings.diagram, settings.diagramCamera, atlas.id());
     }
 
     void prepare(const View& view, GLuint framebuffer) {
@@ -239,6 +278,7 @@ struct Renderer::Impl {
     }
 
     const Scene& scene;
+    const LightField& lightField;
     std::vector<Chart> charts;
     std::vector<TriangleCharts> triangleCharts;
     ShaderLibrary shaders;
@@ -250,7 +290,9 @@ struct Renderer::Impl {
     VertexArray vertexArray;
     TextureObject atlas, elementTexture, recordTexture;
     std::vector<std::uint32_t> mirrorTriangles;
-    std::optional<HitBuffers> hits;  ///< once reflections are traced
+    std::optional<HitBuffers> hits;    ///< once reflections are traced
+    std::optional<Drawings> drawings;  ///< once one is drawn
+    GLsizei indexCount = 0;
     ViewData viewData{};
     GpuMemory memory;
     float nearest = 0, rayStart = 0;  ///< metres
@@ -266,6 +308,13 @@ Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 
 void Renderer::draw(const View& view, const RenderSettings& settings, unsigned framebuffer) {
     impl_->draw(view, settings, framebuffer);
+}
+
+Camera Renderer::diagramView(const DiagramParams& params, const Camera& camera, int width,
+                             int height) {
+    if (params.kind != DiagramKind::subfield && params.kind != DiagramKind::tile) return camera;
+    impl_->makeReady(DisplayMode::diagram);
+    return impl_->drawings->overview(params, camera, width, height);
 }
 
 void Renderer::updateIrradiance(const IrradianceAtlas& atlas) {

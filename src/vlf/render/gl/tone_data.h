@@ -10,10 +10,11 @@ namespace vlf::gl {
 
 /// ViewData::tone of the settings.
 inline Vec4 toneData(const RenderSettings& settings) {
-    float kind = shared::kWriteRadiance;
+    float kind = showsRadiance(settings.mode) ? shared::kWriteRadiance : shared::kWriteLinear;
     if (settings.tone)
         kind = *settings.tone == ToneCurve::filmic ? shared::kWriteFilmic : shared::kWriteClamped;
-    return {std::exp2(settings.exposure), kind, settings.textureBias, 0};
+    return {std::exp2(settings.exposure), kind, settings.textureBias,
+            settings.mode == DisplayMode::diagram ? kDimmed : 1};
 }
 
 }  // namespace vlf::gl

@@ -4,6 +4,7 @@ namespace vlf {
 
 View shifted(const View& view, const Vec2& offset) {
     View moved = view;
+    moved.offset += offset;
     const Vec2 shift(-2 * offset.x / view.width, 2 * offset.y / view.height);
     for (int column = 0; column < 4; ++column) {
         Vec4& c = moved.clipFromWorld[column];

@@ -16,6 +16,8 @@ struct View {
     Vec3 eye{0};
     int x = 0, y = 0, width = 0, height = 0;  ///< viewport, pixels from the lower left
     std::optional<PixelRectangle> part;       ///< draw no more than this, within the viewport
+    Vec2 offset{
+        0};  ///< by which clipFromWorld is shifted; lines, antialiased by themselves, are not
 };
 
 /// The view moved by `offset` pixels (right, down), for antialiasing.

@@ -55,7 +55,7 @@ HitSurface surfaceAt(TraceHit hit, vec3 direction) {
     return s;
 }
 
-int wrapped(int i, int size, uint mode) {
+int wrapped(int i, int size, int mode) {
     if (mode == kWrapClamp) return clamp(i, 0, size - 1);
     int period = mode == kWrapMirror ? 2 * size : size;
     i = (i + 2 * period) % period;
@@ -63,7 +63,7 @@ int wrapped(int i, int size, uint mode) {
 }
 
 // Moves a coordinate near zero by whole periods.
-float reduced(float t, uint mode) {
+float reduced(float t, int mode) {
     return mode == kWrapClamp ? clamp(t, -1, 2) : t - 2 * floor(0.5 * t);
 }
 
@@ -77,13 +77,14 @@ vec3 hitTexel(uint texel) {
 vec3 textureAt(uint record, vec2 uv) {
     if (record == kNoRecord) return vec3(1);
     uvec4 t = hitRecord(record);
-    ivec2 size = ivec2(t.y & 0xffffu, t.y >> 16);
-    vec2 at = vec2(reduced(uv.x, t.z), 1 - reduced(uv.y, t.w)) * vec2(size) - 0.5;
+    ivec2 size = ivec2(t.y & 0xffffu, t.y >> 16), mode = ivec2(t.zw);
+    vec2 at = vec2(reduced(uv.x, mode.x), 1 - reduced(uv.y, mode.y)) * vec2(size) - 0.5;
     ivec2 lower = ivec2(floor(at));
     vec2 f = at - vec2(lower);
-    uint x0 = uint(wrapped(lower.x, size.x, t.z)), x1 = uint(wrapped(lower.x + 1, size.x, t.z));
-    uint y0 = t.x + uint(size.x * wrapped(lower.y, size.y, t.w));
-    uint y1 = t.x + uint(size.x * wrapped(lower.y + 1, size.y, t.w));
+    uint x0 = uint(wrapped(lower.x, size.x, mode.x));
+    uint x1 = uint(wrapped(lower.x + 1, size.x, mode.x));
+    uint y0 = t.x + uint(size.x * wrapped(lower.y, size.y, mode.y));
+    uint y1 = t.x + uint(size.x * wrapped(lower.y + 1, size.y, mode.y));
     return mix(mix(hitTexel(y0 + x0), hitTexel(y0 + x1), f.x),
                mix(hitTexel(y1 + x0), hitTexel(y1 + x1), f.x), f.y);
 }
@@ -104,7 +105,7 @@ vec3 irradianceAt(HitSurface s) {
 // Radiance that leaves the surface by emission and diffuse reflection.
 vec3 ownRadiance(HitSurface s) {
     vec3 radiance = materialColor(s, 0u) * irradianceAt(s) * 0.318309886;
-    if (s.front || (s.range.w & kEmitsBothSides) != 0u) radiance += materialColor(s, 2u);
+    if (s.front || (s.range.w & uint(kEmitsBothSides)) != 0u) radiance += materialColor(s, 2u);
     return radiance;
 }
 
@@ -116,6 +117,6 @@ vec3 mirrorReflectance(HitSurface s) {
 // normal would send the ray into the surface.
 vec3 mirrorDirection(HitSurface s, vec3 incoming) {
     vec3 reflected = reflect(incoming, s.normal);
-    bool curved = (s.range.w & kPlanarChart) == 0u && dot(reflected, s.geometricNormal) > 0;
+    bool curved = (s.range.w & uint(kPlanarChart)) == 0u && dot(reflected, s.geometricNormal) > 0;
     return curved ? reflected : reflect(incoming, s.geometricNormal);
 }

@@ -55,12 +55,14 @@ VLF_INT kWrapMirror = 2;
 VLF_INT kWriteRadiance = 0;
 VLF_INT kWriteFilmic = 1;
 VLF_INT kWriteClamped = 2;
+VLF_INT kWriteLinear = 3;  // of drawings: as kWriteFilmic, but not sRGB-encoded
 
 // std140.
 struct ViewData {
     mat4 clipFromWorld;
     vec4 eye;         // world; w: how far rays start off surfaces, metres
-    vec4 tone;        // factor, kind of output (kWrite...), bias of the level of detail of textures
+    vec4 tone;        // factor, kind of output (kWrite...), bias of the level of detail of textures,
+                      // factor after the tone curve
     vec4 fieldFrame;  // centre, cells a metre
     vec4 field;       // rings of the direction set, lines, cells (minus 1) / 2, tolerance (metres)
     vec4 elementCode;  // metres of the longest distance, log2 of the sum at code 0, its step
