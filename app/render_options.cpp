@@ -174,8 +174,7 @@ void addRenderOptions(CLI::App& command, RenderOptions& options) {
         ->excludes("--camera")
         ->excludes("--eye");
     command
-        .add_option("--backend", options.backend,
-                    "Who draws: the CPU in every mode, or OpenGL without a window")
+        .add_option("--backend", options.backend, "Who draws: the CPU, or OpenGL without a window")
         ->transform(CLI::CheckedTransformer(kBackendNames))
         ->option_text("cpu|gl [cpu]");
     addModeOptions(command, options.still);
