@@ -309,10 +309,12 @@ class Pipeline(Case):
         self.run_vlf("compare", "gl.exr", "cpu.exr", "--exposure", "auto", "--json", "c.json")
         self.assertLess(self.json("c.json")["flip"], 0.01)
 
-    def test_opengl_says_which_mode_it_draws(self):
+    def test_opengl_draws_every_mode(self):
         self.bake("room.vlf")
-        self.run_vlf("render", "room.vlf", "--backend", "gl", "-o", "a.png", code=BAD_INPUT,
-                     says=["mode field", "--backend cpu"])
+        for mode in ("raytraced", "field", "progressive", "wireframe", "diagram"):
+            self.run_vlf("render", "room.vlf", "--backend", "gl", "--mode", mode, "--size", "64x48",
+                         "-o", f"{mode}.png")
+            self.assertGreater((self.folder / f"{mode}.png").stat().st_size, 100)
 
     def test_from_scene_to_comparison(self):
         self.run_vlf("bake", "cornell.obj", "-o", "room.vlf", "--preset", "draft", "--json",
@@ -356,6 +358,203 @@ class Pipeline(Case):
         one = self.bake("1.vlf", "--threads", "1").read_bytes()
         for threads in ("2", "7"):
             self.assertEqual(self.bake(f"{threads}.vlf", "--threads", threads).read_bytes(), one)
+
+
+class Stereo(Case):
+    SIZE = ["--size", "160x120", "--antialias", "1"]
+
+    def setUp(self):
+        super().setUp()
+        self.bake("room.vlf")
+
+    def size(self, name):
+        header = (self.folder / name).read_bytes()
+        return tuple(int.from_bytes(header[i:i + 4], "big") for i in (16, 20))
+
+    def test_every_layout_writes_its_pictures(self):
+        for layout in ["side-by-side", "anaglyph", "pair"]:
+            self.run_vlf("render", "room.vlf", *self.SIZE, "--stereo", layout, "--convergence",
+                         "2", "-o", f"{layout}.png", "--json", "r.json")
+            self.assertEqual(self.json("r.json")["stereo"]["layout"], layout)
+        self.assertEqual(self.size("side-by-side.png"), (320, 120))
+        self.assertEqual(self.size("anaglyph.png"), (160, 120))
+        self.assertEqual(self.size("pair-left.png"), (160, 120))
+        self.assertNotIn("pair.png", self.files())
+        left, right = (self.folder / f"pair-{eye}.png" for eye in ("left", "right"))
+        self.assertNotEqual(left.read_bytes(), right.read_bytes())
+
+    def test_eyes_without_a_distance_see_the_same(self):
+        self.run_vlf("render", "room.vlf", *self.SIZE, "--stereo", "pair", "--eye-separation", "0",
+                     "-o", "a.png")
+        self.run_vlf("render", "room.vlf", *self.SIZE, "-o", "one.png")
+        one = (self.folder / "one.png").read_bytes()
+        for eye in ("left", "right"):
+            self.assertEqual((self.folder / f"a-{eye}.png").read_bytes(), one)
+
+    def test_both_backends_see_the_same_with_both_eyes(self):
+        for backend in ("cpu", "gl"):
+            self.run_vlf("render", "room.vlf", "--size", "160x120", "--mode", "field", "--backend",
+                         backend, "--stereo", "side-by-side", "--convergence", "1.5", "-o",
+                         f"{backend}.exr")
+        self.run_vlf("compare", "gl.exr", "cpu.exr", "--exposure", "auto", "--json", "c.json")
+        self.assertLess(self.json("c.json")["flip"], 0.01)
+
+    def test_options_that_mean_nothing_are_refused(self):
+        for options, says in [(["--eye-separation", "0.1"], "--stereo"),
+                              (["--stereo", "anaglyph", "-o", "a.exr"], "display"),
+                              (["--stereo", "pair", "--convergence", "0"], "--convergence"),
+                              (["--stereo", "pair", "--eye-separation", "nan"], "separation")]:
+            output = [] if "-o" in options else ["-o", "a.png"]
+            self.run_vlf("render", "room.vlf", *options, *output, code=USAGE, says=[says])
+
+
+class Film(Case):
+    SIZE = ["--size", "160x120", "--antialias", "1"]
+    PATH = {"format": "vlf camera path", "version": 1, "camera": [
+        {"seconds": 0, "eye": [0.1, 1, 2.5], "yaw": 0, "pitch": 0, "verticalFov": 50},
+        {"seconds": 1, "eye": [-0.3, 1.1, 1.5], "yaw": 20, "pitch": -5, "verticalFov": 50}]}
+
+    def setUp(self):
+        super().setUp()
+        self.bake("room.vlf")
+        (self.folder / "walk.json").write_text(json.dumps(self.PATH))
+
+    def film(self, *options, **expected):
+        return self.run_vlf("render", "room.vlf", "--path", "walk.json", *self.SIZE, *options,
+                            **expected)
+
+    def probe(self, name):
+        done = subprocess.run(
+            ["ffprobe", "-v", "error", "-count_frames", "-show_streams", "-of", "json", name],
+            cwd=self.folder, capture_output=True, text=True, check=True)
+        return json.loads(done.stdout)["streams"][0]
+
+    def middle_color(self, name):
+        """Of the first frame, by ffmpeg's conversion to RGB."""
+        done = subprocess.run(
+            ["ffmpeg", "-v", "error", "-i", name, "-frames:v", "1", "-vf", "scale=160:120", "-f",
+             "rawvideo", "-pix_fmt", "rgb24", "-"], cwd=self.folder, capture_output=True,
+            check=True)
+        return [sum(done.stdout[c::3]) / (160 * 120) for c in range(3)]
+
+    def test_a_film_has_the_frames_of_its_path(self):
+        self.film("--film", "a.mp4", "--fps", "12", "--log", "log.csv", "--json", "r.json")
+        stream = self.probe("a.mp4")
+        self.assertEqual((stream["width"], stream["height"]), (160, 120))
+        self.assertEqual(stream["nb_read_frames"], "12")
+        self.assertAlmostEqual(float(stream["duration"]), 1, places=3)
+        self.assertEqual((stream["codec_name"], stream["pix_fmt"]), ("h264", "yuv420p"))
+        report = self.json("r.json")["film"]
+        self.assertEqual(report["frames"], 12)
+        self.assertGreaterEqual(report["milliseconds"]["total"]["p99OverMedian"], 1)
+        rows = (self.folder / "log.csv").read_text().splitlines()
+        self.assertEqual(len(rows), 13)
+        self.assertTrue(rows[0].startswith("frame,path_time_s,cpu_ms,gpu_ms,total_ms,"))
+        self.assertEqual(float(rows[12].split(",")[1]), round(11 / 12, 6))
+
+    def test_a_film_has_the_colours_of_its_pictures(self):
+        self.film("--film", "a.mp4", "--to", "1f", "--exposure", "0", "--crf", "5")
+        self.film("-o", "a%d.png", "--to", "1f", "--exposure", "0")
+        for a, b in zip(self.middle_color("a.mp4"), self.middle_color("a0.png")):
+            self.assertAlmostEqual(a, b, delta=1.5)
+
+    def test_frames_are_the_same_every_time(self):
+        for backend in ("cpu", "gl"):
+            runs = []
+            for threads in ("1", "2", "2"):
+                self.film("--threads", threads, "-o", "f-%03d.exr", "--fps", "3", "--mode",
+                          "field", "--backend", backend)
+                frames = sorted(self.folder.glob("f-*.exr"))
+                runs.append([frame.read_bytes() for frame in frames])
+            self.assertEqual([f.name for f in frames], [f"f-00{i}.exr" for i in range(3)])
+            self.assertEqual(runs[0], runs[1])
+            self.assertEqual(runs[1], runs[2])
+            self.assertNotEqual(runs[0][0], runs[0][1])
+
+    def test_a_part_of_a_film_has_the_frames_of_the_whole(self):
+        self.film("-o", "all-%d.png", "--fps", "5")
+        self.film("-o", "part-%d.png", "--fps", "5", "--from", "0.4", "--to", "4f")
+        self.assertEqual([f for f in self.files() if f.startswith("part")],
+                         ["part-2.png", "part-3.png"])
+        for i in (2, 3):
+            self.assertEqual((self.folder / f"part-{i}.png").read_bytes(),
+                             (self.folder / f"all-{i}.png").read_bytes())
+
+    def test_a_tour_visits_the_cameras(self):
+        self.run_vlf("render", "room.vlf", "--tour", *self.SIZE, "--exposure", "0", "-o", "t%d.png",
+                     "--to", "1f")
+        self.run_vlf("render", "room.vlf", *self.SIZE, "--exposure", "0", "-o", "first.png")
+        self.run_vlf("compare", "t0.png", "first.png", "--json", "c.json")
+        self.assertLess(self.json("c.json")["flip"], 0.002)
+
+    def test_films_for_two_eyes(self):
+        for layout, files in [("side-by-side", {"a.mp4": 320}), ("anaglyph", {"a.mp4": 160}),
+                              ("pair", {"a-left.mp4": 160, "a-right.mp4": 160})]:
+            self.film("--film", "a.mp4", "--fps", "2", "--stereo", layout)
+            for name, width in files.items():
+                stream = self.probe(name)
+                self.assertEqual((stream["width"], stream["nb_read_frames"]), (width, "2"))
+
+    def test_what_makes_no_film_is_a_usage_error(self):
+        for options, says in [
+                (["--film", "a.avi"], ".mp4"),
+                (["-o", "a.png"], "%05d"),
+                (["-o", "a%d-%d.png"], "%05d"),
+                (["-o", "a%5d.png"], "%05d"),
+                ([], "--film"),
+                (["--film", "a.mp4", "--fps", "0"], "--fps"),
+                (["--film", "a.mp4", "--from", "soon"], "--from"),
+                (["--film", "a.mp4", "--log", "log.txt"], ".csv"),
+                (["--film", "a.mp4", "--camera", "front"], "--camera"),
+                (["--film", "a.mp4", "-o", "b%d.png"], "--film")]:
+            self.film(*options, code=USAGE, says=[says])
+        self.run_vlf("render", "room.vlf", "--film", "a.mp4", code=USAGE, says=["--path"])
+        self.run_vlf("render", "room.vlf", "--tour", "--film", "a.mp4", "--size", "161x120",
+                     code=USAGE, says=["even", "162x120"])
+        self.run_vlf("render", "room.vlf", "-o", "a.png", "--log", "a.csv", code=USAGE,
+                     says=["--log"])
+        self.assertEqual(self.files(), sorted(["room.vlf", "walk.json"] + self.scene_files()))
+
+    def scene_files(self):
+        return [f for f in self.files() if f.startswith("cornell")]
+
+    def test_a_damaged_path_is_named_with_its_element(self):
+        text = json.dumps(self.PATH)
+        (self.folder / "walk.json").write_text(text.replace('"yaw": 20', '"yaw": "left"'))
+        self.film("--film", "a.mp4", code=BAD_INPUT, says=["walk.json", "camera[1].yaw"])
+        (self.folder / "walk.json").unlink()
+        self.film("--film", "a.mp4", code=FAILED, says=["walk.json"])
+
+    def test_a_range_without_frames_is_refused(self):
+        self.film("--film", "a.mp4", "--from", "2", code=BAD_INPUT, says=["--from", "30", "1.000 s"])
+
+    def with_ffmpeg(self, script):
+        """Renders a film over an old one with this script in place of ffmpeg, or with none."""
+        programs = self.folder / "programs"
+        programs.mkdir(exist_ok=True)
+        if script:
+            (programs / "ffmpeg").write_text("#!/bin/sh\n" + script)
+            (programs / "ffmpeg").chmod(0o755)
+        (self.folder / "a.mp4").write_text("old")
+        before = self.files()
+        done = subprocess.run([PROGRAM, "render", "room.vlf", "--path", "walk.json", *self.SIZE,
+                               "--film", "a.mp4"], cwd=self.folder, capture_output=True, text=True,
+                              env=dict(os.environ, PATH=str(programs)), timeout=60)
+        self.assertEqual(done.returncode, FAILED, done.stderr)
+        self.assertEqual((self.folder / "a.mp4").read_text(), "old")
+        self.assertEqual(self.files(), before)
+        return done.stderr
+
+    def test_without_ffmpeg_there_is_advice(self):
+        self.assertIn("install", self.with_ffmpeg(None))
+
+    def test_what_ffmpeg_says_when_it_fails_is_passed_on(self):
+        at_once = self.with_ffmpeg("echo one >&2; echo no such codec >&2; exit 1\n")
+        self.assertIn("a.mp4", at_once)
+        self.assertIn("no such codec", at_once)
+        reading = "exec 3<&0; while read -r line <&3; do :; done; echo disk full >&2; exit 1\n"
+        self.assertIn("disk full", self.with_ffmpeg(reading))
+        self.assertIn("says nothing", self.with_ffmpeg("kill -9 $$\n"))
 
 
 class BadInput(Case):
@@ -450,16 +649,20 @@ class Interrupt(Case):
     LONGEST = 10  # seconds until the program ends, on a busy machine and with sanitizers
 
     def interrupt(self, stage, *arguments):
-        """Starts the program, interrupts it when the stage has begun and checks how it ends."""
+        """Starts the program, interrupts it when the stage has begun and checks how it ends.
+
+        As at a terminal, the signal goes to all processes of the group.
+        """
         process = subprocess.Popen([PROGRAM, *arguments], cwd=self.folder, text=True,
-                                   stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+                                   stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                                   start_new_session=True)
         said = []
         for line in process.stdout:
             said.append(line)
             if line.startswith(stage):
                 break
         time.sleep(0.2)
-        process.send_signal(signal.SIGINT)
+        os.killpg(process.pid, signal.SIGINT)
         rest, _ = process.communicate(timeout=self.LONGEST)
         self.assertEqual(process.returncode, INTERRUPTED, "".join(said) + rest)
 
@@ -492,6 +695,12 @@ class Interrupt(Case):
         for mode in ("raytraced", "wireframe"):
             self.leaves_alone("a.png", "rendering", "render", "room.vlf", "--mode", mode, "--size",
                               "6000x5000", "--antialias", "16", "-o", "a.png")
+
+    def test_a_film_leaves_the_old_film(self):
+        self.bake("room.vlf")
+        (self.folder / "a.mp4").write_text("old")
+        self.leaves_alone("a.mp4", "frames", "render", "room.vlf", "--tour", "--film", "a.mp4",
+                          "--log", "a.csv")
 
     def test_measuring_irradiance_leaves_the_old_report(self):
         self.bake("room.vlf")

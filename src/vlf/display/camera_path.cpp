@@ -114,13 +114,18 @@ CameraPose CameraPath::at(double seconds) const {
 void PathRecorder::record(double seconds, const CameraPose& pose) {
     const std::size_t n = samples_.size();
     const bool rests = n >= 2 && samples_[n - 2].pose == pose && samples_[n - 1].pose == pose;
-    const bool replaces = n >= 1 && seconds <= samples_[n - 1].seconds;
+    const bool replaces = n >= 1 && seconds - samples_[n - 1].seconds < kLeastStep;
     if (replaces)
         samples_.back().pose = pose;
     else if (rests)
         samples_.back().seconds = seconds;
     else
         samples_.push_back({seconds, pose});
+}
+
+void PathRecorder::jump(double seconds, const CameraPose& pose) {
+    if (!empty()) record(seconds - 2 * kLeastStep, samples_.back().pose);
+    record(seconds, pose);
 }
 
 CameraPath tour(std::span<const Camera> cameras) {

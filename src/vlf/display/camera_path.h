@@ -52,9 +52,13 @@ class CameraPath {
 /// left out.
 class PathRecorder {
   public:
-    /// The walker's pose at a time in seconds since the start. A time that is not after the last
-    /// one replaces it.
+    /// The walker's pose at a time in seconds since the start. Less than a microsecond after the
+    /// last one it replaces that.
     void record(double seconds, const CameraPose& pose);
+
+    /// As record, but the walker did not go there: the pose is the last one until a moment before,
+    /// so that a replay shows nothing from between.
+    void jump(double seconds, const CameraPose& pose);
 
     bool empty() const { return samples_.empty(); }
 

@@ -23,6 +23,13 @@ TEST_F(OpenGl, DrawsDiffuseRoomsAsTheCpuDoes) {
     }
 }
 
+TEST_F(OpenGl, DrawsShiftedPicturesAsTheCpuDoes) {
+    const BakedExample room = smallRoom("cornell");
+    StillParams params = stillOf(room.camera("front"));
+    params.camera.shift = {0.3f, -0.2f};
+    EXPECT_LT(flipAgainstCpu(room, params), 0.01);
+}
+
 TEST_F(OpenGl, DrawsTexturesAsTheCpuDoes) {
     const BakedExample room = smallRoom("office");
     EXPECT_LT(flipAgainstCpu(room, stillOf(room.camera("overview"))), 0.02);
