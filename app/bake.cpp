@@ -12,7 +12,6 @@
 #include "vlf/propagate/memory.h"
 #include "vlf/scene/scene_hash.h"
 
-#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <memory>
@@ -53,10 +52,8 @@ BakeParams bakeParams(const Options& o, const Globals& globals) {
 Scene readScene(const Options& options, const Globals& globals) {
     Scene scene = readScenes(options.scenes, globals);
     if (scene.cameras.empty()) scene.cameras.push_back(defaultCamera(scene));
-    const bool lit =
-        std::any_of(scene.triangles.begin(), scene.triangles.end(),
-                    [&](const auto& t) { return scene.materials[t.material].isEmitter(); });
-    if (!lit) printWarning(globals.quiet, "the scene has no emitter: everything will be black");
+    if (!hasEmitter(scene))
+        printWarning(globals.quiet, "the scene has no emitter: everything will be black");
     return scene;
 }
 

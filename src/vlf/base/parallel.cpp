@@ -4,6 +4,11 @@
 #include <cstdint>
 #include <thread>
 
+#if defined(__linux__)
+#include <sys/resource.h>
+#include <unistd.h>
+#endif
+
 #if defined(__SSE2__)
 #include <xmmintrin.h>
 #endif
@@ -25,6 +30,20 @@ class FlushDenormals {
 #endif
 };
 
+int nicenessOfThread() {
+#if defined(__linux__)
+    return getpriority(PRIO_PROCESS, 0);  // 0: the calling thread
+#else
+    return 0;
+#endif
+}
+
+void setNicenessOfThread(int niceness) {
+#if defined(__linux__)
+    setpriority(PRIO_PROCESS, 0, niceness);
+#endif
+}
+
 }  // namespace
 
 }  // namespace vlf
@@ -40,10 +59,15 @@ namespace vlf {
 
 namespace {
 std::atomic<int> threadLimit{0};
+thread_local int backgroundThreads = 0;
+
+int smallerLimit(int a, int b) {
+    return a > 0 && b > 0 ? std::min(a, b) : std::max(a, b);
 }
+}  // namespace
 
 int threadCount() {
-    const int limit = threadLimit.load();
+    const int limit = smallerLimit(threadLimit.load(), backgroundThreads);
     return limit > 0 ? limit : std::max(1u, std::thread::hardware_concurrency());
 }
 
@@ -72,8 +96,19 @@ void parallelFor(std::size_t count, std::size_t grain,
     if (failure) std::rethrow_exception(failure);
 }
 
-ThreadLimit::ThreadLimit(int n) { threadLimit.store(n); }
-ThreadLimit::~ThreadLimit() { threadLimit.store(0); }
+void runInBackground(int niceness, int threads, const std::function<void()>& work) {
+    setNicenessOfThread(nicenessOfThread() + niceness);  // threads it starts inherit it
+    backgroundThreads = threads;
+    work();
+    backgroundThreads = 0;
+}
+
+ThreadLimit::ThreadLimit(int n) {
+    threadLimit.store(n);
+}
+ThreadLimit::~ThreadLimit() {
+    threadLimit.store(0);
+}
 
 }  // namespace vlf
 
@@ -82,8 +117,35 @@ ThreadLimit::~ThreadLimit() { threadLimit.store(0); }
 #include <tbb/blocked_range.h>
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+#include <tbb/task_scheduler_observer.h>
 
 namespace vlf {
+
+namespace {
+
+/// Gives every thread that comes to work in an arena a niceness.
+class Niceness : public tbb::task_scheduler_observer {
+  public:
+    Niceness(tbb::task_arena& arena, int niceness)
+        : task_scheduler_observer(arena), niceness_(niceness) {
+        observe(true);
+    }
+    ~Niceness() override { observe(false); }
+
+    void on_scheduler_entry(bool) override { setNicenessOfThread(niceness_); }
+
+  private:
+    int niceness_;
+};
+
+}  // namespace
+
+void runInBackground(int niceness, int threads, const std::function<void()>& work) {
+    tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
+    const Niceness observer(arena, nicenessOfThread() + niceness);
+    arena.execute(work);
+}
 
 int threadCount() {
     return static_cast<int>(
@@ -107,7 +169,9 @@ ThreadLimit::ThreadLimit(int n) {
                                            static_cast<std::size_t>(n));
 }
 
-ThreadLimit::~ThreadLimit() { delete static_cast<tbb::global_control*>(control_); }
+ThreadLimit::~ThreadLimit() {
+    delete static_cast<tbb::global_control*>(control_);
+}
 
 }  // namespace vlf
 

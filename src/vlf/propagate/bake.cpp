@@ -129,7 +129,8 @@ BakeParams presetParams(const std::string& name) {
     return p;
 }
 
-BakeState makeState(const Scene& scene, const BakeParams& params, Progress& progress) {
+BakeState makeState(const Scene& scene, const BakeParams& params, Progress& progress,
+                    const BakeObserver& observe) {
     checkParams(params);
     BakeState state(scene, params);
     state.frame = frameOf(scene);
@@ -141,20 +142,27 @@ BakeState makeState(const Scene& scene, const BakeParams& params, Progress& prog
     state.sources = findLightSources(scene, state.unwrap);
     state.bentTexels = findBentTexels(scene, state.unwrap);
     findReflectances(state);
+    observe(state, BakeStage::charts);
     state.directIrradiance = timed(state.report, progress, "direct light", [&] {
         return directIrradiance(scene, state.rays, state.unwrap, state.sources,
                                 {params.directSamples, params.seed}, progress);
     });
     state.irradiance = state.directIrradiance;
     state.reached.assign(state.irradiance.size(), 0);
+    observe(state, BakeStage::directLight);
     return state;
 }
 
-LightField finish(BakeState& state, Progress& progress) {
+LightField unlitField(const BakeState& state) {
     LightField field;
     field.frame = state.frame;
     field.charts = state.unwrap.charts;
     field.triangleCharts = state.unwrap.triangleCharts;
+    return field;
+}
+
+LightField finish(BakeState& state, Progress& progress) {
+    LightField field = unlitField(state);
     field.atlas = timed(state.report, progress, "atlas", [&] { return fillAtlas(state); });
     addRadianceField(state, field, progress);
     state.report.energy = energyBalance(state);
@@ -176,9 +184,9 @@ LightField finish(BakeState& state, Progress& progress) {
 }
 
 LightField bake(const Scene& scene, const BakeParams& params, Progress& progress,
-                BakeReport* report) {
-    BakeState state = makeState(scene, params, progress);
-    timed(state.report, progress, "bounces", [&] { propagate(state, progress); });
+                BakeReport* report, const BakeObserver& observe) {
+    BakeState state = makeState(scene, params, progress, observe);
+    timed(state.report, progress, "bounces", [&] { propagate(state, progress, observe); });
     LightField field = finish(state, progress);
     if (report) *report = state.report;
     return field;

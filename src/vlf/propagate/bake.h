@@ -13,6 +13,7 @@
 #include "vlf/unwrap/unwrap.h"
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -51,7 +52,7 @@ struct BakeReport {
     std::size_t radianceElements = 0;
     std::uint64_t exchanges = 0;
     int sweeps = 0;
-    double residual = 0;  ///< estimated light still missing, relative
+    double residual = 1;  ///< estimated light still missing, relative
     EnergyReport energy;
 };
 
@@ -77,8 +78,21 @@ struct BakeState {
     BakeReport report;
 };
 
+/// How far a state has come.
+enum class BakeStage {
+    charts,       ///< charts, texels and light sources are known, light is not
+    directLight,  ///< the field after zero bounces
+    bounce,       ///< one more coarse bounce
+    settled       ///< the coarse bounces are done; the fine one follows
+};
+
+/// Is shown the states on the way, by the thread that bakes and between its parallel loops.
+using BakeObserver = std::function<void(const BakeState&, BakeStage)>;
+inline void unobserved(const BakeState&, BakeStage) {}
+
 /// Charts, texels and direct light: the field after zero bounces. `scene` must outlive the state.
-BakeState makeState(const Scene& scene, const BakeParams& params, Progress& progress);
+BakeState makeState(const Scene& scene, const BakeParams& params, Progress& progress,
+                    const BakeObserver& observe = unobserved);
 
 /// One bounce: every texel gathers the light that the others reflect, over `directions` lines (in
 /// random rotation `sweep`, or as they are if sweep < 0) of cells² rays.
@@ -86,13 +100,16 @@ void propagateOnce(BakeState& state, int directions, int cells, int sweep, Progr
 
 /// Coarse bounces until the light still missing is below the tolerance (or for
 /// params.maxBounces), then one fine one.
-void propagate(BakeState& state, Progress& progress);
+void propagate(BakeState& state, Progress& progress, const BakeObserver& observe = unobserved);
+
+/// Where the state's light field lies and its charts, without light (see fillAtlas) and record.
+LightField unlitField(const BakeState& state);
 
 /// The light field of the present solution.
 LightField finish(BakeState& state, Progress& progress);
 
 /// All of it. Throws InputError for parameters or a scene that cannot be baked, Cancelled.
 LightField bake(const Scene& scene, const BakeParams& params, Progress& progress,
-                BakeReport* report = nullptr);
+                BakeReport* report = nullptr, const BakeObserver& observe = unobserved);
 
 }  // namespace vlf

@@ -72,8 +72,9 @@ IrradianceAtlas fillAtlas(const BakeState& state) {
     IrradianceAtlas atlas{unwrap.atlasWidth, unwrap.atlasHeight,
                           std::vector<Vec3>(unwrap.atlasSize(), Vec3(0))};
     std::vector<std::uint8_t> known(unwrap.atlasSize(), 0);
+    const bool swept = state.report.sweeps > 0;  // else all have direct light alone
     for (std::size_t i = 0; i < unwrap.texels.size(); ++i) {
-        if (!state.reached[i]) continue;
+        if (swept && !state.reached[i]) continue;
         atlas.irradiance[unwrap.texels[i]] = state.irradiance[i];
         known[unwrap.texels[i]] = 1;
     }

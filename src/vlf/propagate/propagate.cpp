@@ -149,16 +149,19 @@ void settle(BakeState& state, Progress& progress) {
 
 }  // namespace
 
-void propagate(BakeState& state, Progress& progress) {
+void propagate(BakeState& state, Progress& progress, const BakeObserver& observe) {
     const BakeParams& p = state.params;
     Convergence convergence(state);
     while (!convergence.reached(p.maxBounces, p.tolerance)) {
         propagateOnce(state, p.coarseDirections, p.coarseCells, state.report.sweeps, progress);
         convergence.update(state);
+        state.report.residual = convergence.residualAfter(0);
+        observe(state, BakeStage::bounce);
     }
     const int settling = p.maxBounces == 0 ? p.settlingSweeps : 0;
     if (settling > 0) settle(state, progress);
     state.report.residual = convergence.residualAfter(settling);
+    observe(state, BakeStage::settled);
     propagateOnce(state, p.directions, p.cells, -1, progress);
 }
 

@@ -63,6 +63,11 @@ Vec3 emittedRadiance(const Scene& scene, const Material& material, const Vec2& u
     return textured(scene, material.emission, material.emissionTexture, uv);
 }
 
+bool hasEmitter(const Scene& scene) {
+    return std::any_of(scene.triangles.begin(), scene.triangles.end(),
+                       [&](const Triangle& t) { return scene.materials[t.material].isEmitter(); });
+}
+
 Bounds boundsOf(const Scene& scene) {
     Bounds bounds;
     for (const Vec3& p : scene.positions) bounds.add(p);

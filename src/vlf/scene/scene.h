@@ -18,9 +18,9 @@ namespace vlf {
 /// both sides; emission leaves the side of the winding normal only, unless emitsBothSides.
 struct Material {
     std::string name;
-    Vec3 diffuse{0.8f};       ///< Lambertian reflectance, multiplied by diffuseTexture
-    Vec3 mirror{0.0f};        ///< specular reflectance, multiplied by mirrorTexture
-    Vec3 emission{0.0f};      ///< emitted radiance, W·m⁻²·sr⁻¹, multiplied by emissionTexture
+    Vec3 diffuse{0.8f};   ///< Lambertian reflectance, multiplied by diffuseTexture
+    Vec3 mirror{0.0f};    ///< specular reflectance, multiplied by mirrorTexture
+    Vec3 emission{0.0f};  ///< emitted radiance, W·m⁻²·sr⁻¹, multiplied by emissionTexture
     int diffuseTexture = -1;  ///< index into Scene::textures; -1: none
     int mirrorTexture = -1;
     int emissionTexture = -1;
@@ -91,6 +91,9 @@ Vec3 shadingNormalAt(const Scene& scene, std::uint32_t triangle, const Vec2& bar
 Vec3 diffuseReflectance(const Scene& scene, const Material& material, const Vec2& uv);
 Vec3 mirrorReflectance(const Scene& scene, const Material& material, const Vec2& uv);
 Vec3 emittedRadiance(const Scene& scene, const Material& material, const Vec2& uv);
+
+/// Whether any triangle's material emits.
+bool hasEmitter(const Scene& scene);
 
 Bounds boundsOf(const Scene& scene);
 

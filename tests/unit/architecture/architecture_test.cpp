@@ -32,6 +32,7 @@ const std::map<std::string, std::set<std::string>> kArrows{
     {"io", {"scene", "field", "image"}},
     {"render", {"scene", "trace", "field", "image"}},
     {"display", {"scene", "trace", "image", "render"}},
+    {"live", {"scene", "field", "propagate", "io"}},
 };
 
 /// Libraries that one module alone may use, so that they can be exchanged.

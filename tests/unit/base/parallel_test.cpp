@@ -6,9 +6,14 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include <gtest/gtest.h>
+
+#if defined(__linux__)
+#include <sys/resource.h>
+#endif
 
 namespace vlf {
 namespace {
@@ -102,6 +107,41 @@ TEST(ThreadLimit, LimitsTheThreadsAtWork) {
         EXPECT_EQ(most, 1);
     }
     EXPECT_EQ(threadCount(), before);
+}
+
+#if defined(__linux__)
+TEST(RunInBackground, LowersThePriorityOfAllThatWork) {
+    std::thread([] {  // which keeps the low priority
+        const int before = getpriority(PRIO_PROCESS, 0);
+        std::atomic<int> calls{0}, lowered{0};
+        runInBackground(5, 0, [&] {
+            parallelFor(1000, [&](std::size_t) {
+                ++calls;
+                lowered += getpriority(PRIO_PROCESS, 0) == std::min(19, before + 5);
+            });
+        });
+        EXPECT_EQ(calls, 1000);
+        EXPECT_EQ(lowered, 1000);
+    })
+        .join();
+}
+#endif
+
+TEST(RunInBackground, LimitsTheThreadsAtWork) {
+    std::atomic<int> atWork{0}, most{0};
+    runInBackground(0, 1, [&] {
+        parallelFor(1000, [&](std::size_t) {
+            const int now = ++atWork;
+            if (now > most) most = now;
+            --atWork;
+        });
+    });
+    EXPECT_EQ(most, 1);
+}
+
+TEST(RunInBackground, HandsExceptionsOn) {
+    EXPECT_THROW(runInBackground(0, 0, [] { throw std::runtime_error("work"); }),
+                 std::runtime_error);
 }
 
 TEST(ThreadLimit, OfZeroIsNoLimit) {

@@ -2,6 +2,7 @@
 
 #include "vlf/base/error.h"
 #include "vlf/scene/import/file_bytes.h"
+#include "vlf/scene/import/warn.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -59,9 +60,10 @@ Camera readCamera(const json& object, const SourceLocation& where) {
 
 }  // namespace
 
-std::vector<Camera> readCameraSidecar(const std::string& scenePath) {
+std::vector<Camera> readCameraSidecar(const std::string& scenePath, ImportReport& report) {
     const std::string path =
         std::filesystem::path(scenePath).replace_extension(".cameras.json").string();
+    noteFile(report, path);
     if (!std::filesystem::exists(path)) return {};
     json root;
     try {

@@ -1,7 +1,7 @@
 #pragma once
 // Cameras of scene files that cannot hold them.
 
-#include "vlf/scene/scene.h"
+#include "vlf/scene/import/import.h"
 
 #include <string>
 #include <vector>
@@ -13,6 +13,6 @@ namespace vlf {
 ///                 "up": [0, 1, 0], "verticalFov": 50}]}
 /// in metres and degrees; up and verticalFov may be left out. No such file: no cameras. Throws
 /// InputError that names the file and the element that is wrong.
-std::vector<Camera> readCameraSidecar(const std::string& scenePath);
+std::vector<Camera> readCameraSidecar(const std::string& scenePath, ImportReport& report);
 
 }  // namespace vlf

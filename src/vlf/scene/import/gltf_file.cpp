@@ -21,9 +21,11 @@ bool keepImageBytes(tinygltf::Image* image, int, std::string*, std::string*, int
 }
 
 /// Only files below the document's folder, given as an absolute path, are looked at.
-bool fileExists(const std::string& path, void*) {
+bool fileExists(const std::string& path, void* report) {
+    if (!fs::path(path).is_absolute()) return false;
+    noteFile(*static_cast<ImportReport*>(report), path);
     std::error_code ignored;
-    return fs::path(path).is_absolute() && fs::is_regular_file(path, ignored);
+    return fs::is_regular_file(path, ignored);
 }
 
 bool readWholeFile(std::vector<unsigned char>* bytes, std::string* error, const std::string& path,
@@ -50,7 +52,7 @@ void parse(GltfFile& file, const std::vector<std::uint8_t>& bytes, const std::st
     tinygltf::TinyGLTF loader;
     loader.SetImageLoader(keepImageBytes, nullptr);
     loader.SetFsCallbacks({fileExists, [](const std::string& path, void*) { return path; },
-                           readWholeFile, nullptr, nullptr});
+                           readWholeFile, nullptr, &report});
     const std::string folder = fs::absolute(file.path).parent_path().string();
     std::string error, ignored;
     const auto size = static_cast<unsigned>(bytes.size());
@@ -74,6 +76,7 @@ void parse(GltfFile& file, const std::vector<std::uint8_t>& bytes, const std::st
 
 GltfFile readGltf(const std::string& path, ImportReport& report) {
     GltfFile file{path, {}};
+    noteFile(report, path);
     const std::vector<std::uint8_t> bytes = readFileBytes(path);
     const std::string advice = checkGltfJson(path, gltfChunks(path, bytes), report);
     parse(file, bytes, advice, report);

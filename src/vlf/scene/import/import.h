@@ -1,6 +1,7 @@
 #pragma once
 // Reading scene files.
 
+#include "vlf/base/file_stamp.h"
 #include "vlf/scene/scene.h"
 
 #include <string>
@@ -11,6 +12,9 @@ namespace vlf {
 /// What an importer has to say besides the scene: one line each, with file and line or element.
 struct ImportReport {
     std::vector<std::string> warnings;
+    /// Every file that was read, as it was just before, or looked for in vain because another names
+    /// it. After a failure, those up to it.
+    std::vector<FileStamp> files;
     std::size_t degenerateTriangles = 0;  ///< dropped: no area
     std::size_t duplicateTriangles = 0;   ///< dropped: repeats of an earlier triangle
 };

@@ -7,6 +7,7 @@
 #include "vlf/scene/import/obj_file.h"
 #include "vlf/scene/import/obj_material.h"
 #include "vlf/scene/import/polygon.h"
+#include "vlf/scene/import/warn.h"
 
 #include <fmt/format.h>
 
@@ -138,6 +139,7 @@ void addTriangles(Scene& scene, ObjFile& file, const std::vector<ObjMaterial>& m
 }  // namespace
 
 Scene importObj(const std::string& path, ImportReport& report) {
+    noteFile(report, path);
     ObjFile file = parseObj(path, readFileText(path), report);
     const std::string stem = std::filesystem::path(path).stem().string();
     for (ObjName& part : file.parts)
@@ -146,7 +148,7 @@ Scene importObj(const std::string& path, ImportReport& report) {
     const std::vector<ObjMaterial> materials = addObjMaterials(scene, file, report);
     addMissingNormals(file);
     addTriangles(scene, file, materials);
-    scene.cameras = readCameraSidecar(path);
+    scene.cameras = readCameraSidecar(path, report);
     return scene;
 }
 

@@ -40,6 +40,14 @@ std::optional<fs::path> findBeside(const std::string& from, std::string name) {
     return std::nullopt;
 }
 
+/// findBeside of a file that is to be read: the report notes it, or where it was expected.
+std::optional<fs::path> findNoted(const std::string& from, const std::string& name,
+                                  ImportReport& report) {
+    const auto path = findBeside(from, name);
+    noteFile(report, path ? path->string() : (fs::path(from).parent_path() / name).string());
+    return path;
+}
+
 bool isPositive(const std::optional<Vec3>& colour) {
     return colour && maxComponent(*colour) > 0;
 }
@@ -141,7 +149,7 @@ class MaterialBuilder {
     int loadTexture(const MtlMaterial& m, const MtlTexture& map) {
         if (map.file.empty()) return -1;
         const SourceLocation where{m.path, map.line, fmt::format("material '{}'", m.name)};
-        const auto path = findBeside(m.path, map.file);
+        const auto path = findNoted(m.path, map.file, report_);
         if (!path) {
             warn(report_, where,
                  fmt::format("texture '{}' not found; its factor alone is used", map.file));
@@ -192,7 +200,7 @@ std::unordered_map<std::string, MtlMaterial> readLibraries(const ObjFile& file,
     std::unordered_map<std::string, MtlMaterial> materials;
     for (const ObjName& library : file.libraries) {
         for (const std::string& name : libraryNames(file.path, library.name)) {
-            const auto path = findBeside(file.path, name);
+            const auto path = findNoted(file.path, name, report);
             if (!path) {
                 warn(report, {file.path, library.line, ""},
                      fmt::format("material library '{}' not found", name));

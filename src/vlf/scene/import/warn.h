@@ -1,5 +1,5 @@
 #pragma once
-// Warnings of the importers.
+// What the importers put into their report.
 
 #include "vlf/base/error.h"
 #include "vlf/scene/import/import.h"
@@ -13,6 +13,14 @@ inline void warn(ImportReport& report, const SourceLocation& where, const std::s
     std::string line = toString(where) + ": " + message;
     auto& all = report.warnings;
     if (std::find(all.begin(), all.end(), line) == all.end()) all.push_back(std::move(line));
+}
+
+/// Adds a file that is about to be read, or that is missing, to the report, once.
+inline void noteFile(ImportReport& report, const std::string& path) {
+    FileStamp stamp = stampOf(path);
+    const auto isSame = [&](const FileStamp& other) { return other.path == path; };
+    if (std::none_of(report.files.begin(), report.files.end(), isSame))
+        report.files.push_back(std::move(stamp));
 }
 
 }  // namespace vlf
