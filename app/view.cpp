@@ -10,6 +10,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <cstdio>
 #include <memory>
 #include <string>
 #include <utility>
@@ -52,7 +53,10 @@ void walk(Viewer& viewer, std::uint64_t frames) {
 void run(const Options& options, const Globals& globals) {
     const BakedRoom room = readField(options.viewer.field);
     Viewer viewer(room, viewerOptions(options, globals, room.scene));
-    if (!globals.quiet) fmt::print("H in the window shows the keys\n");
+    if (!globals.quiet) {
+        fmt::print("H in the window shows the keys\n");
+        std::fflush(stdout);
+    }
     walk(viewer, options.frames);
     viewer.remember();
 }

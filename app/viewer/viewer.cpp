@@ -118,9 +118,8 @@ void Viewer::keyPressed(const KeyPress& press) {
         if (matches(binding, press)) binding.press(*this);
 }
 
-void Viewer::pointerMoved(const Vec2& by) {
-    if (window_->pointerCaptured() || (window_->buttonHeld() && !gui_.wantsPointer()))
-        turn_ -= kRadiansPerPixel * by;
+void Viewer::pointerDragged(const Vec2& by) {
+    if (!gui_.wantsPointer()) turn_ -= kRadiansPerPixel * by;
 }
 
 void Viewer::scrolled(float steps) {

@@ -61,7 +61,7 @@ class Viewer : private WindowListener {
 
   private:
     void keyPressed(const KeyPress& press) override;
-    void pointerMoved(const Vec2& by) override;
+    void pointerDragged(const Vec2& by) override;
     void scrolled(float steps) override;
 
     Steering steering(float seconds);

@@ -69,6 +69,14 @@ bool onSomeMonitor(int x, int y) {
     });
 }
 
+bool anyButtonHeld(GLFWwindow* window) {
+    constexpr std::array kButtons{GLFW_MOUSE_BUTTON_LEFT, GLFW_MOUSE_BUTTON_RIGHT,
+                                  GLFW_MOUSE_BUTTON_MIDDLE};
+    return std::any_of(kButtons.begin(), kButtons.end(), [&](int button) {
+        return glfwGetMouseButton(window, button) == GLFW_PRESS;
+    });
+}
+
 Window& self(GLFWwindow* window) {
     return *static_cast<Window*>(glfwGetWindowUserPointer(window));
 }
@@ -107,7 +115,9 @@ void Window::listen() {
     });
     glfwSetCursorPosCallback(window_, [](GLFWwindow* w, double x, double y) {
         const Vec2 at(x, y);
-        if (const auto last = std::exchange(self(w).pointer_, at)) self(w).moved_ += at - *last;
+        const auto last = std::exchange(self(w).pointer_, at);
+        // Asked for now: a quick drag begins and ends between two polls.
+        if (last && (anyButtonHeld(w) || self(w).pointerCaptured())) self(w).dragged_ += at - *last;
     });
     glfwSetScrollCallback(window_, [](GLFWwindow* w, double, double steps) {
         self(w).scrolled_ += static_cast<float>(steps);
@@ -120,7 +130,8 @@ void Window::poll(WindowListener& listener) {
     else
         glfwPollEvents();
     for (const KeyPress& press : std::exchange(presses_, {})) listener.keyPressed(press);
-    if (const Vec2 by = std::exchange(moved_, Vec2(0)); by != Vec2(0)) listener.pointerMoved(by);
+    if (const Vec2 by = std::exchange(dragged_, Vec2(0)); by != Vec2(0))
+        listener.pointerDragged(by);
     if (const float steps = std::exchange(scrolled_, 0.0f); steps != 0) listener.scrolled(steps);
 }
 
@@ -205,19 +216,11 @@ void Window::capturePointer(bool on) {
 /// The next place of the pointer is no movement from the last.
 void Window::forgetPointer() {
     pointer_.reset();
-    moved_ = Vec2(0);
+    dragged_ = Vec2(0);
 }
 
 bool Window::held(Key key) const {
     return key != Key::unknown && glfwGetKey(window_, static_cast<int>(key)) == GLFW_PRESS;
-}
-
-bool Window::buttonHeld() const {
-    constexpr std::array kButtons{GLFW_MOUSE_BUTTON_LEFT, GLFW_MOUSE_BUTTON_RIGHT,
-                                  GLFW_MOUSE_BUTTON_MIDDLE};
-    return std::any_of(kButtons.begin(), kButtons.end(), [&](int button) {
-        return glfwGetMouseButton(window_, button) == GLFW_PRESS;
-    });
 }
 
 std::optional<Gamepad> Window::gamepad() const {

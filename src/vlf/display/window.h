@@ -40,8 +40,9 @@ class WindowListener {
     virtual ~WindowListener() = default;
 
     virtual void keyPressed(const KeyPress& press) = 0;
-    /// The pointer has moved by so many units of the desktop, right and down positive.
-    virtual void pointerMoved(const Vec2& by) = 0;
+    /// The pointer has moved, with a button held or captured, by so many units of the desktop;
+    /// right and down are positive.
+    virtual void pointerDragged(const Vec2& by) = 0;
     /// The wheel has turned; away from the user is positive.
     virtual void scrolled(float steps) = 0;
 };
@@ -82,8 +83,6 @@ class Window {
     void capturePointer(bool on);
 
     bool held(Key key) const;
-    /// Whether any button of the mouse is held.
-    bool buttonHeld() const;
     std::optional<Gamepad> gamepad() const;
 
     /// For libraries that draw into windows of GLFW.
@@ -98,7 +97,7 @@ class Window {
     WindowPlace place_;
     std::vector<KeyPress> presses_;
     std::optional<Vec2> pointer_;
-    Vec2 moved_{0};
+    Vec2 dragged_{0};
     float scrolled_ = 0;
 };
 
