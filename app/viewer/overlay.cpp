@@ -63,6 +63,12 @@ void drawMessage(const std::string& line, float opacity) {
     ImGui::PopStyleVar();
 }
 
+void drawStatus(const std::string& line) {
+    placeNext(0, 1);
+    if (ImGui::Begin("status", nullptr, kReadOnly)) text(line);
+    ImGui::End();
+}
+
 void drawProblem(const std::string& message) {
     placeNext(0.5f, 0.8f);
     ImGui::SetNextWindowSize({0.7f * ImGui::GetIO().DisplaySize.x, 0});
@@ -110,6 +116,13 @@ void drawStatistics(const FrameStatistics& frames, const PassTimes& passes,
             label("  irradiance", bytes(memory.atlas));
             label("  radiance", bytes(memory.radiance));
             label("  textures", bytes(memory.textures));
+            if (memory.hits > 0) label("  tracing", bytes(memory.hits));
+            if (memory.drawings > 0) label("  drawings", bytes(memory.drawings));
+            if (memory.radianceElements > 0)
+                label(
+                    "  a radiance element",
+                    fmt::format("{:.2f} bytes", static_cast<double>(memory.radiance) /
+                                                    static_cast<double>(memory.radianceElements)));
             ImGui::EndTable();
         }
     }

@@ -17,6 +17,9 @@ using PassTimes = std::vector<std::pair<std::string, std::optional<double>>>;  /
 /// One line at the bottom; `opacity` in [0, 1].
 void drawMessage(const std::string& text, float opacity);
 
+/// One line in the lower left corner: what is under way.
+void drawStatus(const std::string& text);
+
 /// Something the user must know until it is mended.
 void drawProblem(const std::string& text);
 

@@ -13,6 +13,7 @@
 #include "vlf/render/gl/still.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <filesystem>
 #include <utility>
@@ -33,7 +34,7 @@ constexpr const char* kHint = "Tab: settings   H: keys   Escape: close";
 
 std::unique_ptr<Window> openWindow(const ViewerOptions& options, const Memory& memory) {
     WindowOptions wanted = options.window;
-    wanted.title = options.field;
+    wanted.title = options.file;
     if (!options.placeChosen && memory.preferences().window)
         wanted.place = *memory.preferences().window;
     auto window = std::make_unique<Window>(wanted);
@@ -42,6 +43,16 @@ std::unique_ptr<Window> openWindow(const ViewerOptions& options, const Memory& m
     wanted.samples = 0;
     window.reset();
     return std::make_unique<Window>(wanted);
+}
+
+std::string stemOf(const std::string& file) {
+    return std::filesystem::path(file).stem().string();
+}
+
+using Clock = std::chrono::steady_clock;
+
+double millisecondsSince(Clock::time_point start) {
+    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
 /// True every so often.
@@ -63,25 +74,34 @@ bool matches(const Binding& binding, const KeyPress& press) {
 
 }  // namespace
 
-Viewer::Viewer(const BakedRoom& room, const ViewerOptions& options)
+Viewer::Viewer(std::shared_ptr<const BakedRoom> room, const ViewerOptions& options)
     : options_(options),
-      memory_(options.preferences, options.field, options.quiet),
+      memory_(options.preferences, options.file, options.quiet),
       window_(openWindow(options, memory_)),
       gui_(*window_),
-      renderer_(room.scene, room.field, {options.shaderFolder}),
+      shownRoom_(std::make_unique<ShownRoom>(room, options.renderer)),
       walk_(room, options.start, [this](const std::string& text) { say(text); }),
-      shaderWatch_(options.shaderFolder),
-      message_(kHint),
-      messageAge_(-kMessage) {
+      session_(options.session),
+      shaderWatch_(options.renderer.shaderFolder) {
     RoomPreferences here = memory_.room();
     if (options.startChosen) here.pose.reset();
     walk_.recall(memory_.preferences(), here);
+    walk_.setMode(options.mode);
+    if (session_.pose()) walk_.setMovement(Movement::fly);
+    if (options.live)
+        live_.emplace(*options.live, stemOf(options.file), options.output,
+                      [this](const std::string& text) { announce(text); });
+    message_ = kHint;
+    messageAge_ = -kMessage;
 }
 
 void Viewer::frame(double seconds) {
-    const float step = std::min(static_cast<float>(seconds), kLongestFrame);
+    const Clock::time_point start = Clock::now();
+    const float step = std::min(static_cast<float>(session_.advance(seconds)), kLongestFrame);
+    const double pathSeconds = session_.seconds();
     window_->poll(*this);
-    walk_.navigator().advance(steering(step), step);
+    move(step);
+    takeNews();
     if (window_->hidden()) return;
     statistics_.add(seconds);
     reloadShaders(step);
@@ -91,12 +111,52 @@ void Viewer::frame(double seconds) {
     gui_.begin(shown_.panel && !window_->pointerCaptured());
     drawMessages(static_cast<float>(seconds));
     drawOverlays();
+    const double cpuMs = millisecondsSince(start);
     window_->swap();
+    note(pathSeconds, cpuMs, millisecondsSince(start));
     showTitle(static_cast<float>(seconds));
     if (gl::contextLost())
         throw Error(
             "the graphics driver was reset and with it everything on the GPU; start again, or make "
             "pictures with vlf render");
+}
+
+void Viewer::move(float seconds) {
+    const Steering wanted = steering(seconds);
+    if (const auto pose = session_.pose())
+        walk_.navigator().setPose(*pose);
+    else
+        walk_.navigator().advance(wanted, seconds);
+}
+
+void Viewer::takeNews() {
+    if (!live_) return;
+    const std::optional<LiveUpdate> update = live_->poll();
+    if (!update) return;
+    if (update->room) {
+        shownRoom_ = std::make_unique<ShownRoom>(update->room, options_.renderer);
+        walk_.enter(update->room);
+    }
+    shownRoom_->renderer().updateIrradiance(*update->irradiance);
+}
+
+void Viewer::note(double pathSeconds, double cpuMs, double totalMs) {
+    const std::optional<double> room = roomTimer_.milliseconds();
+    const std::optional<double> overlay = overlayTimer_.milliseconds();
+    FrameRecord frame;
+    frame.pathSeconds = pathSeconds;
+    frame.cpuMs = cpuMs;
+    if (room && overlay) frame.gpuMs = *room + *overlay;
+    frame.totalMs = totalMs;
+    frame.passMs = {room.value_or(0), overlay.value_or(0)};
+    frame.pose = walk_.navigator().pose();
+    session_.note(frame);
+}
+
+void Viewer::finish() {
+    remember();
+    if (live_) live_->finish();
+    session_.finish();
 }
 
 Steering Viewer::steering(float seconds) {
@@ -141,6 +201,13 @@ void Viewer::toggleFullscreen() {
     say(window_->fullscreen() ? "full screen" : "window");
 }
 
+void Viewer::saveBake() {
+    if (live_)
+        live_->save();
+    else
+        say("this room comes from a field file: there is nothing to save");
+}
+
 void Viewer::escape() {
     if (window_->pointerCaptured())
         captureMouse(false);
@@ -158,10 +225,16 @@ void Viewer::say(const std::string& text) {
     std::fflush(stdout);
 }
 
+/// What is also told on the terminal.
+void Viewer::announce(const std::string& text) {
+    say(text);
+    if (!options_.quiet && !options_.verbose) fmt::print("{}\n", text);
+}
+
 void Viewer::reloadShaders(float seconds) {
     if (!due(sinceWatched_, seconds, kWatching) || !shaderWatch_.changed()) return;
     try {
-        renderer_.reloadShaders();
+        shownRoom_->reloadShaders();
         problem_.clear();
         say("shaders reloaded");
     } catch (const Error& e) {
@@ -172,16 +245,16 @@ void Viewer::reloadShaders(float seconds) {
 
 void Viewer::drawRoom() {
     const gl::TimedPass pass(roomTimer_);
-    renderer_.draw(
-        viewOf(walk_.camera(), window_->pixelWidth(), window_->pixelHeight(), renderer_.nearest()),
-        walk_.settings(), 0);
+    shownRoom_->draw(viewOf(walk_.camera(), window_->pixelWidth(), window_->pixelHeight(),
+                            shownRoom_->renderer().nearest()),
+                     walk_.settings(), 0);
 }
 
 void Viewer::adaptExposure(float seconds) {
     if (!walk_.exposure().automatic()) return;
     if (due(sinceMetered_, seconds, kMetering))
         meter_.measure(
-            renderer_, walk_.camera(),
+            shownRoom_->renderer(), walk_.camera(),
             static_cast<float>(window_->pixelWidth()) / static_cast<float>(window_->pixelHeight()));
     if (const auto wanted = meter_.exposure()) walk_.exposure().adapt(*wanted, seconds);
 }
@@ -189,7 +262,18 @@ void Viewer::adaptExposure(float seconds) {
 void Viewer::drawMessages(float seconds) {
     messageAge_ += seconds;
     if (messageAge_ < kMessage) drawMessage(message_, (kMessage - messageAge_) / kFade);
-    if (!problem_.empty()) drawProblem(problem_);
+    const std::string problem = problem_.empty() && live_ ? live_->problem() : problem_;
+    if (!problem.empty()) drawProblem(problem);
+    if (const std::string line = status(); !line.empty()) drawStatus(line);
+}
+
+/// What is under way, in a line.
+std::string Viewer::status() const {
+    std::string line = live_ ? live_->activity() : std::string();
+    const std::optional<double> refined = shownRoom_->refined();
+    if (line.empty() && refined && *refined < 1)
+        line = fmt::format("refining {:.0f} %", 100 * *refined);
+    return line;
 }
 
 void Viewer::drawOverlays() {
@@ -201,7 +285,7 @@ void Viewer::drawOverlays() {
         drawStatistics(
             statistics_,
             {{"room", roomTimer_.milliseconds()}, {"overlay", overlayTimer_.milliseconds()}},
-            renderer_.memory());
+            shownRoom_->renderer().memory());
     const gl::TimedPass pass(overlayTimer_);
     gui_.draw();
 }
@@ -212,8 +296,7 @@ void Viewer::writeWantedPicture() {
     if (!kind) return;
     try {
         const std::string name = writePicture(*kind);
-        say(name + " written");
-        if (!options_.quiet && !options_.verbose) fmt::print("{} written\n", name);
+        announce(name + " written");
     } catch (const Error& e) {
         say(e.what());
         printWarning(options_.quiet, e.what());
@@ -222,7 +305,7 @@ void Viewer::writeWantedPicture() {
 
 /// As it is shown, without what lies over it, or its radiance. Returns the name of the file.
 std::string Viewer::writePicture(Picture kind) {
-    const std::string stem = std::filesystem::path(options_.field).stem().string();
+    const std::string stem = stemOf(options_.file);
     const int width = window_->pixelWidth(), height = window_->pixelHeight();
     const std::string name = makeNumberedFile(stem, kind == Picture::png ? "png" : "exr");
     try {
@@ -234,10 +317,11 @@ std::string Viewer::writePicture(Picture kind) {
         params.camera = walk_.camera();
         params.width = width;
         params.height = height;
-        params.mode = DisplayMode::field;
+        const DisplayMode mode = shownRoom_->drawable(walk_.settings().mode);
+        params.mode = mode == DisplayMode::field ? mode : DisplayMode::raytraced;
         params.lookup = walk_.lookup();
         Progress progress;
-        writeExr(name, renderStill(renderer_, params, progress));
+        writeExr(name, renderStill(shownRoom_->renderer(), params, progress));
     } catch (...) {
         std::error_code ignored;
         std::filesystem::remove(name, ignored);
@@ -248,7 +332,7 @@ std::string Viewer::writePicture(Picture kind) {
 
 void Viewer::showTitle(float seconds) {
     if (due(sinceTitle_, seconds, kTitle))
-        window_->setTitle(fmt::format("{} - {:.0f} fps", options_.field, statistics_.rate()));
+        window_->setTitle(fmt::format("{} - {:.0f} fps", options_.file, statistics_.rate()));
 }
 
 }  // namespace vlf::app

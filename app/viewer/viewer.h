@@ -3,14 +3,16 @@
 
 #include "folder_watch.h"
 #include "gui.h"
+#include "live_view.h"
 #include "memory.h"
+#include "session.h"
+#include "shown_room.h"
 #include "walkthrough.h"
 
 #include "vlf/display/frame_statistics.h"
 #include "vlf/display/window.h"
 #include "vlf/render/gl/exposure_meter.h"
 #include "vlf/render/gl/gpu_timer.h"
-#include "vlf/render/gl/renderer.h"
 
 #include <memory>
 #include <optional>
@@ -19,14 +21,18 @@
 namespace vlf::app {
 
 struct ViewerOptions {
-    std::string field;         ///< name of the file, for the title and names of pictures
+    std::string file;          ///< field or scene, for the title and names of new files
     Camera start;              ///< key 0 goes back there
     bool startChosen = false;  ///< by the user, over what is remembered
     WindowOptions window;      ///< its place, unless the user has chosen one, is the remembered one
     bool placeChosen = false;  ///< by the user
     bool samplesChosen = false;  ///< by the user; otherwise none where the CPU draws
-    std::string shaderFolder;    ///< see RendererOptions; watched for changes
-    std::string preferences;     ///< file; empty: remembers nothing
+    RendererOptions renderer;    ///< its shader folder is watched for changes
+    std::size_t mode = 0;        ///< of kViewModes
+    SessionOptions session;
+    LiveBake* live = nullptr;  ///< bakes the room; must outlive the viewer
+    std::string output;        ///< of the live bake, see LiveView
+    std::string preferences;   ///< file; empty: remembers nothing
     bool quiet = false;
     bool verbose = false;  ///< prints what keys have done
 };
@@ -40,13 +46,17 @@ class Viewer : private WindowListener {
         bool panel = false, help = false, statistics = false;
     };
 
-    /// `room` must outlive it. Throws as Window and Renderer do.
-    Viewer(const BakedRoom& room, const ViewerOptions& options);
+    /// Throws as Window, Renderer and Session do.
+    Viewer(std::shared_ptr<const BakedRoom> room, const ViewerOptions& options);
 
-    bool closing() const { return window_->closing(); }
+    bool closing() const { return window_->closing() || session_.over(); }
 
     /// One frame, `seconds` after the one before. Throws Error if the driver was reset.
     void frame(double seconds);
+
+    /// To be called in the end: writes what was recorded, baked and is to be remembered. Throws
+    /// FileError.
+    void finish();
 
     /// Writes down what is to be remembered.
     void remember() { memory_.save(*window_, walk_); }
@@ -56,6 +66,7 @@ class Viewer : private WindowListener {
     void addBookmark();
     void captureMouse(bool on);
     void toggleFullscreen();
+    void saveBake();
     void wantPicture(Picture kind) { pictureWanted_ = kind; }
     void escape();
 
@@ -65,12 +76,17 @@ class Viewer : private WindowListener {
     void scrolled(float steps) override;
 
     Steering steering(float seconds);
+    void move(float seconds);
     void say(const std::string& text);
+    void announce(const std::string& text);
+    void takeNews();
     void reloadShaders(float seconds);
     void adaptExposure(float seconds);
     void drawRoom();
     void drawOverlays();
     void drawMessages(float seconds);
+    std::string status() const;
+    void note(double pathSeconds, double cpuMs, double totalMs);
     void writeWantedPicture();
     std::string writePicture(Picture kind);
     void showTitle(float seconds);
@@ -79,8 +95,10 @@ class Viewer : private WindowListener {
     Memory memory_;
     std::unique_ptr<Window> window_;
     Gui gui_;
-    Renderer renderer_;
+    std::unique_ptr<ShownRoom> shownRoom_;
     Walkthrough walk_;
+    Session session_;
+    std::optional<LiveView> live_;
     Shown shown_;
     FrameStatistics statistics_;
     gl::ExposureMeter meter_;

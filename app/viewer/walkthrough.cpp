@@ -5,7 +5,6 @@
 #include "vlf/image/tone_map.h"
 
 #include <cmath>
-#include <utility>
 
 #include <fmt/format.h>
 
@@ -25,19 +24,26 @@ float exposureOf(const IrradianceAtlas& atlas) {
 
 }  // namespace
 
-Walkthrough::Walkthrough(const BakedRoom& room, const Camera& start, Say say)
-    : room_(room),
-      start_(start),
+Walkthrough::Walkthrough(std::shared_ptr<const BakedRoom> room, const Camera& start, Say say)
+    : start_(start),
       say_(std::move(say)),
-      rays_(room.scene),
-      navigator_(room.scene, rays_, poseOf(start)),
-      exposure_(exposureOf(room.field.atlas)) {}
+      ground_(std::make_unique<Ground>(std::move(room), poseOf(start))),
+      exposure_(exposureOf(ground_->room->field.atlas)) {}
+
+void Walkthrough::enter(std::shared_ptr<const BakedRoom> room) {
+    const Navigator& before = navigator();
+    auto ground = std::make_unique<Ground>(std::move(room), before.pose());
+    ground->navigator.setSpeedFactor(before.speedFactor());
+    ground->navigator.setEyeHeight(before.eyeHeight());
+    ground->navigator.setMovement(before.movement());
+    ground_ = std::move(ground);
+}
 
 void Walkthrough::recall(const Preferences& preferences, const RoomPreferences& here) {
     bookmarks_ = here.bookmarks;
-    navigator_.setSpeedFactor(preferences.speedFactor);
-    if (here.pose) navigator_.setPose(*here.pose);
-    navigator_.setMovement(preferences.movement);
+    navigator().setSpeedFactor(preferences.speedFactor);
+    if (here.pose) navigator().setPose(*here.pose);
+    navigator().setMovement(preferences.movement);
 }
 
 RenderSettings Walkthrough::settings() const {
@@ -45,18 +51,22 @@ RenderSettings Walkthrough::settings() const {
     settings.lookup = lookup_;
     settings.tone = tone_;
     settings.exposure = exposure_.value();
-    kViewModes[mode_].apply(settings);
+    const ViewMode& mode = kViewModes[mode_];
+    settings.mode = mode.mode;
+    settings.normals = mode.normals;
+    settings.diagram.kind = mode.diagram;
+    settings.diagramCamera = diagramCamera_;
     return settings;
 }
 
 void Walkthrough::reset() {
-    navigator_.setPose(poseOf(start_));
-    exposure_ = Exposure(exposureOf(room_.field.atlas));
+    navigator().setPose(poseOf(start_));
+    exposure_ = Exposure(exposureOf(ground_->room->field.atlas));
     say_("start");
 }
 
 void Walkthrough::goTo(const CameraPose& pose, const std::string& name) {
-    navigator_.setPose(pose);
+    navigator().setPose(pose);
     say_(name);
 }
 
@@ -72,17 +82,18 @@ void Walkthrough::goToNextBookmark() {
 }
 
 void Walkthrough::addBookmark() {
-    bookmarks_.push_back({fmt::format("place {}", bookmarks_.size() + 1), navigator_.pose()});
+    bookmarks_.push_back({fmt::format("place {}", bookmarks_.size() + 1), navigator().pose()});
     say_("bookmark " + bookmarks_.back().name + " added");
 }
 
 void Walkthrough::setMovement(Movement movement) {
-    navigator_.setMovement(movement);
+    navigator().setMovement(movement);
     say_(movement == Movement::walk ? "walking" : "flying");
 }
 
 void Walkthrough::setMode(std::size_t mode) {
     mode_ = mode % kViewModes.size();
+    diagramCamera_ = camera();
     say_(fmt::format("mode {}: {}", kViewModes[mode_].name, kViewModes[mode_].help));
 }
 
@@ -108,13 +119,13 @@ void Walkthrough::changeExposure(float ev) {
 }
 
 void Walkthrough::changeFov(float degrees) {
-    navigator_.setVerticalFov(navigator_.pose().verticalFov + degrees);
-    say_(fmt::format("field of view {:.0f} degrees", navigator_.pose().verticalFov));
+    navigator().setVerticalFov(navigator().pose().verticalFov + degrees);
+    say_(fmt::format("field of view {:.0f} degrees", navigator().pose().verticalFov));
 }
 
 void Walkthrough::changeSpeed(float steps) {
-    navigator_.setSpeedFactor(navigator_.speedFactor() * std::pow(kSpeedStep, steps));
-    say_(fmt::format("speed x {:.2f}", navigator_.speedFactor()));
+    navigator().setSpeedFactor(navigator().speedFactor() * std::pow(kSpeedStep, steps));
+    say_(fmt::format("speed x {:.2f}", navigator().speedFactor()));
 }
 
 }  // namespace vlf::app

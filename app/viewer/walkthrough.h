@@ -9,7 +9,9 @@
 #include "vlf/render/gl/renderer.h"
 
 #include <functional>
+#include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace vlf::app {
@@ -19,18 +21,20 @@ class Walkthrough {
     /// Told in a few words what has been done.
     using Say = std::function<void(const std::string&)>;
 
-    /// `room` must outlive it.
-    Walkthrough(const BakedRoom& room, const Camera& start, Say say);
+    Walkthrough(std::shared_ptr<const BakedRoom> room, const Camera& start, Say say);
+
+    /// Another room, or the same in another light, takes the place of this one.
+    void enter(std::shared_ptr<const BakedRoom> room);
 
     void recall(const Preferences& preferences, const RoomPreferences& here);
 
-    Navigator& navigator() { return navigator_; }
-    const Navigator& navigator() const { return navigator_; }
-    Camera camera() const { return cameraOf(navigator_.pose()); }
+    Navigator& navigator() { return ground_->navigator; }
+    const Navigator& navigator() const { return ground_->navigator; }
+    Camera camera() const { return cameraOf(navigator().pose()); }
     Exposure& exposure() { return exposure_; }
     std::vector<Bookmark>& bookmarks() { return bookmarks_; }
     const std::vector<Bookmark>& bookmarks() const { return bookmarks_; }
-    const std::vector<Camera>& cameras() const { return room_.scene.cameras; }
+    const std::vector<Camera>& cameras() const { return ground_->room->scene.cameras; }
     RenderSettings settings() const;
 
     std::size_t mode() const { return mode_; }
@@ -52,15 +56,24 @@ class Walkthrough {
     void changeSpeed(float steps);
 
   private:
-    const BakedRoom& room_;
+    /// A room to move in.
+    struct Ground {
+        std::shared_ptr<const BakedRoom> room;
+        RayScene rays;
+        Navigator navigator;
+
+        Ground(std::shared_ptr<const BakedRoom> baked, const CameraPose& pose)
+            : room(std::move(baked)), rays(room->scene), navigator(room->scene, rays, pose) {}
+    };
+
     Camera start_;
     Say say_;
-    RayScene rays_;
-    Navigator navigator_;
+    std::unique_ptr<Ground> ground_;
     Exposure exposure_;
     std::vector<Bookmark> bookmarks_;
     std::size_t nextBookmark_ = 0;
     std::size_t mode_ = 0;
+    Camera diagramCamera_;  ///< from where the diagram was asked for
     LookupKind lookup_ = LookupKind::depthCorrected;
     ToneCurve tone_ = ToneCurve::filmic;
 };

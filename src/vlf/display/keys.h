@@ -24,6 +24,7 @@ enum class Key : int {
     f1 = 290,
     f2 = 291,
     f3 = 292,
+    f5 = 294,
     f11 = 300,
     f12 = 301,
     keypadSubtract = 333,

@@ -35,6 +35,7 @@ void ExposureMeter::measure(Renderer& renderer, const Camera& camera, float aspe
     for (int axis = 0; axis < 4; ++axis) view.clipFromWorld[axis].x *= squeeze;
     RenderSettings settings;
     settings.tone.reset();
+    if (!renderer.canLookUp()) settings.mode = DisplayMode::raytraced;
     renderer.draw(view, settings, framebuffer_.id());
     GLint bound = 0;
     glGetIntegerv(GL_PIXEL_PACK_BUFFER_BINDING, &bound);
