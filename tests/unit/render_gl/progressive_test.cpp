@@ -125,7 +125,7 @@ TEST_F(OpenGl, ProgressiveDrawsOneSmallTileWhenThereIsNoTime) {
         walk.step(0);
         const double added = walk.progressive.progress() - before;
         EXPECT_GT(added, 0);
-        EXPECT_LE(added * ProgressiveRenderer::kSamples * kWidth * kHeight, 63 * 63);
+        EXPECT_LE(added * ProgressiveRenderer::kSamples * kWidth * kHeight, 64 * 64);
         before += added;
     }
 }
