@@ -16,8 +16,8 @@ using Clock = std::chrono::steady_clock;
 
 /// Counts so much more in the mean than the 1 of what is there before that it replaces that.
 constexpr float kSampleWeight = 1e6f;
-constexpr int kTileUnit = 64;        ///< sides of tiles, pixels, are multiples of this
-constexpr double kTileShare = 0.25;  ///< of the time for tiles, for one of them
+constexpr int kTileUnit = TileClock::kCell;  ///< sides of tiles, pixels, are multiples of this
+constexpr double kTileShare = 0.25;          ///< of the time for tiles, for one of them
 constexpr double kWorkShare =
     0.25;                      ///< of the time of a call, for tiles, however long showing takes
 constexpr int kCoarsest = 16;  ///< pixels of the view along a side of one that is drawn
@@ -94,6 +94,7 @@ struct ProgressiveRenderer::Impl {
         if (picture.width != subject.width || picture.height != subject.height) {
             picture = FloatTarget(subject.width, subject.height);
             mean.resize(subject.width, subject.height);
+            clock.resize(subject.width, subject.height);
         }
         begun = false;
         tiles.clear();
@@ -152,9 +153,9 @@ struct ProgressiveRenderer::Impl {
         const Clock::time_point start = Clock::now();
         for (bool first = true; samples < kSamples; first = false) {
             if (tiles.empty()) tiles.push_back({0, 0, subject.width, subject.height});
-            while (clock.shading(pixelsOf(tiles.back())) > kTileShare * budget && split()) continue;
+            while (clock.shading(tiles.back()) > kTileShare * budget && split()) continue;
             const PixelRectangle tile = tiles.back();
-            if (!first && secondsSince(start) + clock.drawing(pixelsOf(tile)) > budget) return;
+            if (!first && secondsSince(start) + clock.drawing(tile) > budget) return;
             drawTile(tile);
         }
     }
@@ -167,7 +168,7 @@ struct ProgressiveRenderer::Impl {
                    subject.textureBias - std::log2(static_cast<float>(kSamplesAlongSide)), picture);
         mean.add(picture, subject.width, subject.height, kSampleWeight, tile);
         glFinish();
-        clock.note(pixelsOf(tile), secondsSince(start));
+        clock.note(tile, secondsSince(start));
         tiles.pop_back();
         pixels += pixelsOf(tile);
         if (tiles.empty()) ++samples;
