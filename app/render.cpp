@@ -135,11 +135,9 @@ nlohmann::ordered_json toJson(const Still& still) {
 }
 
 nlohmann::ordered_json toJson(const GpuMemory& memory) {
-    return {{"geometry", memory.geometry},
-            {"atlas", memory.atlas},
-            {"radiance", memory.radiance},
-            {"textures", memory.textures},
-            {"radianceElements", memory.radianceElements}};
+    return {{"geometry", memory.geometry}, {"atlas", memory.atlas},
+            {"radiance", memory.radiance}, {"textures", memory.textures},
+            {"hits", memory.hits},         {"radianceElements", memory.radianceElements}};
 }
 
 nlohmann::ordered_json toJson(const Options& options, const std::vector<Still>& stills,
@@ -259,8 +257,9 @@ void addRender(CLI::App& app, const Globals& globals) {
         ->excludes("--camera")
         ->excludes("--eye");
     command
-        ->add_option("--backend", options->backend,
-                     "Who draws: the CPU in every mode, or OpenGL, without a window, mode field")
+        ->add_option(
+            "--backend", options->backend,
+            "Who draws: the CPU in every mode, or OpenGL, without a window, all but drawings")
         ->transform(CLI::CheckedTransformer(kBackendNames))
         ->option_text("cpu|gl [cpu]");
     addModeOptions(*command, options->still);

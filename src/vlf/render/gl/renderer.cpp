@@ -178,8 +178,8 @@ struct Renderer::Impl {
             memory.hits = hits->bytes();
         } else if (mode != DisplayMode::field) {
             throw InputError(
-                "OpenGL draws modes field, raytraced and progressive; render other "
-                "modes with --backend cpu");
+                "OpenGL draws frames of modes field and raytraced; render other modes with "
+                "--backend cpu");
         } else if (!canLookUp) {
             throw InputError(
                 "the light field holds no radiance of mirrors to look up: bake with "
