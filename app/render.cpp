@@ -96,9 +96,13 @@ nlohmann::ordered_json toJson(const std::vector<Still>& stills) {
 }
 
 nlohmann::ordered_json toJson(const GpuMemory& memory) {
-    return {{"geometry", memory.geometry}, {"atlas", memory.atlas},
-            {"radiance", memory.radiance}, {"textures", memory.textures},
-            {"drawings", memory.drawings}, {"radianceElements", memory.radianceElements}};
+    return {{"geometry", memory.geometry},
+            {"atlas", memory.atlas},
+            {"radiance", memory.radiance},
+            {"textures", memory.textures},
+            {"hits", memory.hits},
+            {"drawings", memory.drawings},
+            {"radianceElements", memory.radianceElements}};
 }
 
 nlohmann::ordered_json toJson(const RenderOptions& options) {

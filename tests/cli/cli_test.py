@@ -308,13 +308,16 @@ class NoScreen(Case):
 class Pipeline(Case):
     def test_both_backends_draw_the_same_picture(self):
         self.bake("room.vlf")
-        for backend in ["cpu", "gl"]:
-            self.run_vlf("render", "room.vlf", "--mode", "field", "--backend", backend, "--size",
-                         "160x120", "-o", f"{backend}.exr", "--json", f"{backend}.json")
-        self.assertNotIn("gpuMemory", self.json("cpu.json"))
-        self.assertGreater(self.json("gl.json")["gpuMemory"]["atlas"], 0)
-        self.run_vlf("compare", "gl.exr", "cpu.exr", "--exposure", "auto", "--json", "c.json")
-        self.assertLess(self.json("c.json")["flip"], 0.01)
+        for mode in ["field", "raytraced", "progressive"]:
+            for backend in ["cpu", "gl"]:
+                self.run_vlf("render", "room.vlf", "--mode", mode, "--backend", backend, "--size",
+                             "160x120", "-o", f"{backend}.exr", "--json", f"{backend}.json")
+            self.assertNotIn("gpuMemory", self.json("cpu.json"))
+            memory = self.json("gl.json")["gpuMemory"]
+            self.assertGreater(memory["atlas"], 0)
+            self.assertEqual(memory["hits"] > 0, mode != "field")
+            self.run_vlf("compare", "gl.exr", "cpu.exr", "--exposure", "auto", "--json", "c.json")
+            self.assertLess(self.json("c.json")["flip"], 0.01)
 
     def test_opengl_draws_every_mode(self):
         self.bake("room.vlf")

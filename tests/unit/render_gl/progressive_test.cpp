@@ -125,7 +125,7 @@ TEST_F(OpenGl, ProgressiveDrawsOneSmallTileWhenThereIsNoTime) {
         walk.step(0);
         const double added = walk.progressive.progress() - before;
         EXPECT_GT(added, 0);
-        EXPECT_LE(added * ProgressiveRenderer::kSamples * kWidth * kHeight, 63 * 63);
+        EXPECT_LE(added * ProgressiveRenderer::kSamples * kWidth * kHeight, 64 * 64);
         before += added;
     }
 }
@@ -173,14 +173,21 @@ TEST_F(OpenGl, ProgressiveLeavesTheStateOfItsHostAsItWas) {
     }
 }
 
-TEST(TileClock, ExpectsWhatTheDearestTileTook) {
+TEST(TileClock, ExpectsOfAPartOfThePictureWhatItTookBefore) {
     gl::TileClock clock;
-    clock.note(100, 2e-3);
-    clock.note(1000, 12e-3);
-    EXPECT_NEAR(clock.drawing(1000), 12e-3, 1e-4);
-    for (int i = 0; i < 10; ++i) clock.note(1000, 2e-3);
-    EXPECT_GT(clock.drawing(1000), 11e-3) << "a few cheap tiles do not make it forget";
-    EXPECT_NEAR(clock.drawing(0), 2e-3, 1e-6);
+    clock.resize(300, 200);
+    const PixelRectangle cheap{0, 0, 128, 64}, dear{128, 64, 64, 64}, rest{256, 128, 44, 72};
+    const double unknown = clock.shading(rest);
+    for (int i = 0; i < 20; ++i) {
+        clock.note(cheap, 2e-3);
+        clock.note(dear, 20e-3);
+    }
+    EXPECT_NEAR(clock.drawing(cheap), 2e-3, 1e-4);
+    EXPECT_NEAR(clock.drawing(dear), 20e-3, 1e-3);
+    EXPECT_NEAR(clock.shading({64, 0, 128, 128}), 18e-3 + 2 * 64 * 64 * 2e-6, 2e-3);
+    EXPECT_EQ(clock.shading(rest), unknown);
+    clock.note(cheap, 50e-3);
+    EXPECT_LT(clock.drawing(cheap), 30e-3) << "once may be chance";
 }
 
 }  // namespace vlf::test

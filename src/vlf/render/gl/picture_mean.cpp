@@ -14,8 +14,11 @@ PictureMean::PictureMean(const std::string& shaderFolder)
     show_ = shaders_.program("picture_mean", {});
 }
 
-void PictureMean::restart(int width, int height) {
-    if (sum_.width != width || sum_.height != height) sum_ = FloatTarget(width, height);
+void PictureMean::resize(int width, int height) {
+    sum_ = FloatTarget(width, height);
+}
+
+void PictureMean::clear() const {
     const float zero[4] = {0, 0, 0, 0};
     glClearTexImage(sum_.color.id(), 0, GL_RGBA, GL_FLOAT, zero);
 }

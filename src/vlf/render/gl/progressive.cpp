@@ -14,10 +14,10 @@ namespace {
 using namespace gl;
 using Clock = std::chrono::steady_clock;
 
-/// What is there before the first sample counts so little in the mean that a sample replaces it.
-constexpr float kFirstWeight = 1e-6f;
-constexpr int kSmallestTile = 32;    ///< pixels along a side
-constexpr double kTileShare = 0.25;  ///< of the time for tiles, for one of them
+/// Counts so much more in the mean than the 1 of what is there before that it replaces that.
+constexpr float kSampleWeight = 1e6f;
+constexpr int kTileUnit = TileClock::kCell;  ///< sides of tiles, pixels, are multiples of this
+constexpr double kTileShare = 0.25;          ///< of the time for tiles, for one of them
 constexpr double kWorkShare =
     0.25;                      ///< of the time of a call, for tiles, however long showing takes
 constexpr int kCoarsest = 16;  ///< pixels of the view along a side of one that is drawn
@@ -47,13 +47,19 @@ double pixelsOf(const PixelRectangle& r) {
 struct ProgressiveRenderer::Impl {
     Impl(Renderer& used, const RendererOptions& options)
         : renderer(used), mean(options.shaderFolder) {
-        // Compiles the shaders, too.
-        mean.restart(1, 1);
+        compileShaders();
+    }
+
+    /// By drawing a pixel with each.
+    void compileShaders() {
+        mean.resize(1, 1);
         picture = FloatTarget(1, 1);
-        View nothing;
-        nothing.width = nothing.height = 1;
-        drawSample(nothing, DisplayMode::raytraced, {});
+        View pixel;
+        pixel.width = pixel.height = 1;
+        drawSample(pixel, DisplayMode::raytraced, 0, picture);
+        if (renderer.canLookUp()) drawSample(pixel, DisplayMode::field, 0, mean.sum());
         mean.add(picture, 1, 1, 1, {0, 0, 1, 1});
+        mean.show(pixel, {}, picture.framebuffer.id());
         glFinish();
     }
 
@@ -85,6 +91,11 @@ struct ProgressiveRenderer::Impl {
 
     void restart(const Subject& wanted) {
         subject = wanted;
+        if (picture.width != subject.width || picture.height != subject.height) {
+            picture = FloatTarget(subject.width, subject.height);
+            mean.resize(subject.width, subject.height);
+            clock.resize(subject.width, subject.height);
+        }
         begun = false;
         tiles.clear();
         samples = 0;
@@ -100,34 +111,35 @@ struct ProgressiveRenderer::Impl {
         return view;
     }
 
-    /// Draws into the lower left of `picture`.
-    void drawSample(const View& view, DisplayMode mode, float textureBias) {
+    void drawSample(const View& view, DisplayMode mode, float textureBias,
+                    const FloatTarget& target) {
         RenderSettings settings;
         settings.mode = mode;
         settings.lookup = subject.lookup;
         settings.tone.reset();
         settings.textureBias = textureBias;
-        renderer.draw(view, settings, picture.framebuffer.id());
+        renderer.draw(view, settings, target.framebuffer.id());
     }
 
     /// What is seen until samples take its place.
     void begin(double budget) {
-        const Clock::time_point start = Clock::now();
-        mean.restart(subject.width, subject.height);
-        if (picture.width != subject.width || picture.height != subject.height)
-            picture = FloatTarget(subject.width, subject.height);
-        const bool coarse = !renderer.canLookUp();
-        View view = subjectView();
-        if (coarse) {
-            view.width = (view.width + coarseness - 1) / coarseness;
-            view.height = (view.height + coarseness - 1) / coarseness;
-        }
-        drawSample(view, coarse ? DisplayMode::raytraced : DisplayMode::field, subject.textureBias);
-        mean.add(picture, view.width, view.height, kFirstWeight,
-                 {0, 0, subject.width, subject.height});
-        glFinish();
+        if (renderer.canLookUp())
+            drawSample(subjectView(), DisplayMode::field, subject.textureBias, mean.sum());
+        else
+            beginCoarsely(budget);
         begun = true;
-        if (coarse) adaptCoarseness(secondsSince(start) / budget);
+    }
+
+    void beginCoarsely(double budget) {
+        const Clock::time_point start = Clock::now();
+        View view = subjectView();
+        view.width = (view.width + coarseness - 1) / coarseness;
+        view.height = (view.height + coarseness - 1) / coarseness;
+        drawSample(view, DisplayMode::raytraced, subject.textureBias, picture);
+        mean.clear();
+        mean.add(picture, view.width, view.height, 1, {0, 0, subject.width, subject.height});
+        glFinish();
+        adaptCoarseness(secondsSince(start) / budget);
     }
 
     /// `share`: of the time of a call.
@@ -141,9 +153,9 @@ struct ProgressiveRenderer::Impl {
         const Clock::time_point start = Clock::now();
         for (bool first = true; samples < kSamples; first = false) {
             if (tiles.empty()) tiles.push_back({0, 0, subject.width, subject.height});
-            while (clock.shading(pixelsOf(tiles.back())) > kTileShare * budget && split()) continue;
+            while (clock.shading(tiles.back()) > kTileShare * budget && split()) continue;
             const PixelRectangle tile = tiles.back();
-            if (!first && secondsSince(start) + clock.drawing(pixelsOf(tile)) > budget) return;
+            if (!first && secondsSince(start) + clock.drawing(tile) > budget) return;
             drawTile(tile);
         }
     }
@@ -153,10 +165,10 @@ struct ProgressiveRenderer::Impl {
         View view = shifted(subjectView(), samplePoint(orderOf(samples), kSamplesAlongSide) - 0.5f);
         view.part = tile;
         drawSample(view, DisplayMode::raytraced,
-                   subject.textureBias - std::log2(static_cast<float>(kSamplesAlongSide)));
-        mean.add(picture, subject.width, subject.height, 1, tile);
+                   subject.textureBias - std::log2(static_cast<float>(kSamplesAlongSide)), picture);
+        mean.add(picture, subject.width, subject.height, kSampleWeight, tile);
         glFinish();
-        clock.note(pixelsOf(tile), secondsSince(start));
+        clock.note(tile, secondsSince(start));
         tiles.pop_back();
         pixels += pixelsOf(tile);
         if (tiles.empty()) ++samples;
@@ -164,15 +176,16 @@ struct ProgressiveRenderer::Impl {
 
     /// Halves the tile to be drawn next; false if it is small enough to be drawn at any cost.
     bool split() {
+        const auto half = [](int side) { return kTileUnit * ((side / kTileUnit + 1) / 2); };
         PixelRectangle& a = tiles.back();
         PixelRectangle b = a;
-        if (std::max(a.width, a.height) < 2 * kSmallestTile) return false;
+        if (std::max(a.width, a.height) <= kTileUnit) return false;
         if (a.width > a.height) {
-            a.width /= 2;
+            a.width = half(a.width);
             b.x += a.width;
             b.width -= a.width;
         } else {
-            a.height /= 2;
+            a.height = half(a.height);
             b.y += a.height;
             b.height -= a.height;
         }

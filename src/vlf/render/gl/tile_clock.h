@@ -1,28 +1,34 @@
 #pragma once
-// How long parts of a picture take to draw, learnt from those that were.
+// How long parts of a picture take to draw, learnt from when they were drawn before.
 
-#include <algorithm>
+#include "vlf/render/gl/view.h"
+
+#include <cstddef>
+#include <vector>
 
 namespace vlf::gl {
 
-/// Seconds of a part: what every part takes, whatever its size, and at most so much a pixel.
+/// Keeps what a pixel takes, cell by cell of the picture, and what every tile takes besides.
 class TileClock {
   public:
-    double drawing(double pixels) const { return least_ + shading(pixels); }
-    double shading(double pixels) const { return perPixel_ * pixels; }
+    static constexpr int kCell = 64;  ///< pixels along a side
 
-    void note(double pixels, double seconds) {
-        least_ = noted_ ? std::min(least_, seconds) : seconds;
-        noted_ = true;
-        perPixel_ = std::max(kDecay * perPixel_, (seconds - least_) / pixels);
-    }
+    /// Of pictures of another size; knows nothing of them.
+    void resize(int width, int height);
+
+    /// Seconds that drawing a tile will take, and the part of them that a smaller one saves.
+    double drawing(const PixelRectangle& tile) const { return least_ + shading(tile); }
+    double shading(const PixelRectangle& tile) const;
+
+    void note(const PixelRectangle& tile, double seconds);
 
   private:
-    /// A dear part of the picture is remembered until the next pass over it.
-    static constexpr double kDecay = 0.995;
+    template <class Visit>
+    void visitCells(const PixelRectangle& tile, const Visit& visit) const;
 
-    double least_ = 0, perPixel_ = 2e-6;
-    bool noted_ = false;
+    int columns_ = 0;
+    std::vector<double> perPixel_;  ///< seconds, of each cell
+    double least_ = 1;              ///< seconds of the cheapest tile so far
 };
 
 }  // namespace vlf::gl
