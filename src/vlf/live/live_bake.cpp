@@ -208,7 +208,7 @@ class Watcher {
         board_.note([&](LiveStatus& s) {
             s.activity.clear();
             s.complete = error.empty();
-            s.error = error;
+            if (!error.empty()) s.error = error;  // else files that were broken since still are
         });
     }
 

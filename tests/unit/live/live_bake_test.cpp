@@ -37,6 +37,7 @@ BakeParams quickParams() {
 
 LiveOptions quickOptions() {
     LiveOptions o;
+    o.niceness = 0;
     o.interval = 0ms;
     o.watchInterval = 10ms;
     o.programVersion = "of the test";
@@ -56,8 +57,8 @@ class LiveBakeTest : public testing::Test {
 
     std::string path(const std::string& name) const { return (folder_ / name).string(); }
 
-    std::string writeExample(const std::string& name) const {
-        exportObj(generateScene(name), folder_.string(), name);
+    std::string writeExample(const std::string& name, const SceneOptions& options = {}) const {
+        exportObj(generateScene(name, options), folder_.string(), name);
         return path(name + ".obj");
     }
 
@@ -83,8 +84,8 @@ class LiveBakeTest : public testing::Test {
 };
 
 /// A floor lit by a panel above it.
-const std::string kFloor = "v -1 0 -1\nv -1 0 1\nv 1 0 1\nv 1 0 -1\nusemtl floor\nf 1 2 3 4\n";
-const std::string kLamp = "v -1 1 -1\nv 1 1 -1\nv 1 1 1\nv -1 1 1\nusemtl lamp\nf 1 2 3 4\n";
+const std::string kFloor = "v -1 0 -1\nv -1 0 1\nv 1 0 1\nv 1 0 -1\nusemtl floor\nf -4 -3 -2 -1\n";
+const std::string kLamp = "v -1 1 -1\nv 1 1 -1\nv 1 1 1\nv -1 1 1\nusemtl lamp\nf -4 -3 -2 -1\n";
 const std::string kMaterials =
     "newmtl floor\nKd 0.5 0.5 0.5\nnewmtl lamp\nKd 0.5 0.5 0.5\nKe 1 1 1\n";
 
@@ -151,7 +152,7 @@ TEST_F(LiveBakeTest, LightFitsTheChartsItComesWith) {
 }
 
 TEST_F(LiveBakeTest, EndsWithTheBitsOfABakeAndAFileOfThem) {
-    const std::string file = writeExample("mirror-room");
+    const std::string file = writeExample("mirror-room", {.triangles = 200});
     LiveBake live({file}, quickParams(), quickOptions());
     const std::vector<LiveUpdate> updates = updatesOf(live);
     ASSERT_TRUE(live.finished());
@@ -188,7 +189,9 @@ TEST_F(LiveBakeTest, EndsSoonWhateverItIsAt) {
             std::this_thread::sleep_for(after);
             begin = Clock::now();
         }
-        EXPECT_LT(Clock::now() - begin, 2s) << after.count() << " ms";  // 0.1 s on an idle machine
+        const std::chrono::duration<double> took = Clock::now() - begin;
+        RecordProperty("after" + std::to_string(after.count()), std::to_string(took.count()));
+        EXPECT_LT(took, 2s) << after.count() << " ms";  // 0.1 s on an idle machine
     }
 }
 
@@ -214,7 +217,7 @@ TEST_F(LiveBakeTest, AFileThatIsBrokenIsReportedAndTheRoomStays) {
     updatesOf(bake);
     const auto room = bake.finished();
     write("room.obj", good + "f 1 2 99\n");
-    ASSERT_TRUE(waitForError(bake, "room.obj:15"));
+    ASSERT_TRUE(waitForError(bake, "room.obj:14"));
     EXPECT_FALSE(bake.poll());
     EXPECT_EQ(bake.finished(), room);
     EXPECT_TRUE(bake.status().complete);
@@ -225,8 +228,8 @@ TEST_F(LiveBakeTest, AFileThatIsBrokenIsReportedAndTheRoomStays) {
 
 TEST_F(LiveBakeTest, ABrokenFileDoesNotEndTheBakeUnderWay) {
     const std::string file = writeExample("cornell");
-    BakeParams wanted = presetParams("draft");
-    wanted.texelSize = 0.01f;
+    BakeParams wanted = quickParams();
+    wanted.directions = 2049;  // half a second
     LiveBake bake({file}, wanted, quickOptions());
     ASSERT_TRUE(waitFor([&] { return bake.finished() != nullptr; }));
     write("cornell.obj", "f 1 2 3\n");
