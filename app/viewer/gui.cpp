@@ -19,7 +19,9 @@ void setStyle(float scale) {
     style.FrameRounding = 3;
     style.WindowBorderSize = 0;
     style.WindowPadding = {10, 10};
-    style.Colors[ImGuiCol_WindowBg] = {0.06f, 0.06f, 0.07f, 0.82f};
+    style.Colors[ImGuiCol_WindowBg] = {0.06f, 0.06f, 0.07f, 0.88f};
+    style.Colors[ImGuiCol_FrameBg] = {0.2f, 0.25f, 0.33f, 1};
+    style.Colors[ImGuiCol_TextDisabled] = {0.7f, 0.7f, 0.7f, 1};
     style.ScaleAllSizes(scale);
     ImFontConfig font;
     font.SizePixels = kFontPixels * std::round(scale);
