@@ -76,9 +76,13 @@ Camera chooseCamera(const CameraOptions& options, const std::vector<Camera>& cam
     if (!options.name.empty()) camera = namedCamera(options.name, cameras);
     if (!options.eye.empty())
         camera = {"command line", toVec3(options.eye), toVec3(options.look), {0, 1, 0}, 50};
+    overrideCamera(options, camera);
+    return camera;
+}
+
+void overrideCamera(const CameraOptions& options, Camera& camera) {
     if (!options.up.empty()) camera.up = toVec3(options.up);
     if (options.verticalFov) camera.verticalFov = *options.verticalFov;
-    return camera;
 }
 
 }  // namespace vlf::app

@@ -30,4 +30,7 @@ void addCameraOptions(CLI::App& command, CameraOptions& options);
 Camera chooseCamera(const CameraOptions& options, const std::vector<Camera>& cameras,
                     const Camera& fallback);
 
+/// Applies --up and --fov, where they are given.
+void overrideCamera(const CameraOptions& options, Camera& camera);
+
 }  // namespace vlf::app

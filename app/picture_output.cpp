@@ -62,9 +62,19 @@ void requireWritableOutputs(std::initializer_list<std::string> paths) {
         if (!path.empty()) requireWritable(path);
 }
 
+bool writesRadiance(const std::string& path) {
+    return lowerExtension(path) == ".exr";
+}
+
+void writeFinished(const std::string& path, const Image& picture,
+                   const ImageAttributes& attributes) {
+    if (writesRadiance(path)) return writeExr(path, picture, attributes);
+    writePng(path, picture);
+}
+
 void writePicture(const PictureOptions& options, const Image& radiance,
                   const ImageAttributes& attributes) {
-    if (lowerExtension(options.path) == ".exr") return writeExr(options.path, radiance, attributes);
+    if (writesRadiance(options.path)) return writeExr(options.path, radiance, attributes);
     const float exposure =
         options.exposure == "auto" ? autoExposure(radiance) : std::stof(options.exposure);
     writePng(options.path, toneMap(radiance, exposure, options.tone));

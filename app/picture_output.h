@@ -33,6 +33,13 @@ std::string exposureProblem(const std::string& text);
 /// before long work.
 void requireWritableOutputs(std::initializer_list<std::string> paths);
 
+/// Whether a file of this name holds radiance; otherwise it holds colours for a display.
+bool writesRadiance(const std::string& path);
+
+/// Writes a picture as it is: radiance, or display-linear colours, see writesRadiance.
+void writeFinished(const std::string& path, const Image& picture,
+                   const ImageAttributes& attributes = {});
+
 /// Writes radiance to the file the options name; `attributes` go into the header of an EXR.
 void writePicture(const PictureOptions& options, const Image& radiance,
                   const ImageAttributes& attributes = {});

@@ -1,21 +1,14 @@
-// vlf render: stills of a baked room.
+// vlf render: stills of a baked room, and films of a walk through it.
 
-#include "camera_options.h"
 #include "commands.h"
 #include "console.h"
-#include "picture_output.h"
+#include "eye_pictures.h"
+#include "film.h"
 
 #include "vlf/base/error.h"
-#include "vlf/io/field_file.h"
-#include "vlf/render/cpu/still.h"
-#include "vlf/render/gl/headless_context.h"
-#include "vlf/render/gl/still.h"
 
 #include <cctype>
-#include <functional>
-#include <map>
 #include <memory>
-#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -26,38 +19,6 @@
 namespace vlf::app {
 
 namespace {
-
-enum class Backend { cpu, gl };
-
-struct Options {
-    std::string field;
-    Backend backend = Backend::cpu;
-    CameraOptions camera;
-    PictureOptions picture;
-    std::string json;
-    bool allCameras = false;
-    std::vector<std::uint32_t> tile;
-    StillParams still;
-};
-
-const std::map<std::string, DisplayMode> kModeNames{{"raytraced", DisplayMode::raytraced},
-                                                    {"field", DisplayMode::field},
-                                                    {"wireframe", DisplayMode::wireframe},
-                                                    {"diagram", DisplayMode::diagram}};
-const std::map<std::string, Backend> kBackendNames{{"cpu", Backend::cpu}, {"gl", Backend::gl}};
-const std::map<std::string, LookupKind> kLookupNames{{"depth", LookupKind::depthCorrected},
-                                                     {"plain", LookupKind::plain}};
-const std::map<std::string, DiagramKind> kDiagramNames{{"directions", DiagramKind::directions},
-                                                       {"subfield", DiagramKind::subfield},
-                                                       {"tile", DiagramKind::tile},
-                                                       {"chart", DiagramKind::chart}};
-
-template <typename Value>
-std::string nameOf(const std::map<std::string, Value>& names, Value value) {
-    for (const auto& [name, candidate] : names)
-        if (candidate == value) return name;
-    return {};
-}
 
 struct Still {
     Camera camera;
@@ -88,37 +49,32 @@ std::vector<Still> stillOfEachCamera(const std::string& pattern, std::vector<Cam
     return stills;
 }
 
-std::vector<Still> stillsToRender(const Options& options, const Scene& scene) {
+std::vector<Still> stillsToRender(const RenderOptions& options, const Scene& scene) {
     const Camera fallback = defaultCamera(scene);
     if (options.allCameras) return stillOfEachCamera(options.picture.path, scene.cameras, fallback);
     return {{chooseCamera(options.camera, scene.cameras, fallback), options.picture.path, {}}};
 }
 
-StillParams stillParams(const Options& options, const Camera& camera) {
-    StillParams params = options.still;
-    params.camera = camera;
-    params.width = options.camera.width;
-    params.height = options.camera.height;
-    if (!options.tile.empty()) {
-        params.diagram.tileX = options.tile[0];
-        params.diagram.tileY = options.tile[1];
+void renderStills(const RenderOptions& options, const Globals& globals, RoomRenderer& renderer,
+                  std::vector<Still>& stills) {
+    const PictureOptions picture = pictureOptions(options);
+    const StereoLayout layout = options.stereo.layout;
+    for (Still& still : stills) {
+        ConsoleProgress progress(globals.quiet);
+        std::vector<Image> eyes = renderEyes(renderer, stillParams(options, still.camera),
+                                             options.stereo, progress, still.report);
+        const float exposure = exposureOf(picture, eyes);
+        const std::vector<Image> pictures = develop(picture, exposure, layout, std::move(eyes));
+        const std::vector<std::string> files = eyeFiles(layout, still.path);
+        for (std::size_t i = 0; i < files.size(); ++i)
+            writeFinished(files[i], pictures[i],
+                          {{"vlf.mode", nameOf(kModeNames, options.still.mode)},
+                           {"vlf.camera", still.camera.name}});
+        if (!globals.quiet)
+            fmt::print("{}: {}x{} pixels, {:.2f} million rays in {:.2f} s\n",
+                       fmt::join(files, ", "), pictures[0].width, pictures[0].height,
+                       1e-6 * static_cast<double>(still.report.rays), still.report.seconds);
     }
-    return params;
-}
-
-/// Drawings are display colours already.
-PictureOptions pictureOptions(const Options& options, const std::string& path) {
-    PictureOptions picture = options.picture;
-    picture.path = path;
-    if (!showsRadiance(options.still.mode)) {
-        picture.exposure = "0";
-        picture.tone = ToneCurve::clamp;
-    }
-    return picture;
-}
-
-std::vector<float> numbers(const Vec3& v) {
-    return {v.x, v.y, v.z};
 }
 
 nlohmann::ordered_json toJson(const Still& still) {
@@ -133,151 +89,84 @@ nlohmann::ordered_json toJson(const Still& still) {
             {"output", still.path}};
 }
 
+nlohmann::ordered_json toJson(const std::vector<Still>& stills) {
+    nlohmann::ordered_json pictures = nlohmann::ordered_json::array();
+    for (const Still& still : stills) pictures.push_back(toJson(still));
+    return pictures;
+}
+
 nlohmann::ordered_json toJson(const GpuMemory& memory) {
     return {{"geometry", memory.geometry},
             {"atlas", memory.atlas},
             {"radiance", memory.radiance},
             {"textures", memory.textures},
+            {"hits", memory.hits},
+            {"drawings", memory.drawings},
             {"radianceElements", memory.radianceElements}};
 }
 
-nlohmann::ordered_json toJson(const Options& options, const std::vector<Still>& stills,
-                              const std::optional<GpuMemory>& memory) {
-    nlohmann::ordered_json pictures = nlohmann::ordered_json::array();
-    for (const Still& still : stills) pictures.push_back(toJson(still));
+nlohmann::ordered_json toJson(const RenderOptions& options) {
     nlohmann::ordered_json report{{"field", options.field},
                                   {"mode", nameOf(kModeNames, options.still.mode)},
                                   {"backend", nameOf(kBackendNames, options.backend)},
                                   {"lookup", nameOf(kLookupNames, options.still.lookup)},
                                   {"antialias", options.still.antialias},
                                   {"width", options.camera.width},
-                                  {"height", options.camera.height},
-                                  {"pictures", pictures}};
-    if (memory) report["gpuMemory"] = toJson(*memory);
+                                  {"height", options.camera.height}};
+    if (options.stereo.layout == StereoLayout::none) return report;
+    const EyePair& eyes = options.stereo.eyes;
+    report["stereo"] = {{"layout", nameOf(kStereoNames, options.stereo.layout)},
+                        {"eyeSeparation", eyes.separation}};
+    if (eyes.convergence) report["stereo"]["convergence"] = *eyes.convergence;
     return report;
 }
 
-using StillRenderer = std::function<Image(const StillParams&, Progress&, StillReport&)>;
-
-void renderAll(const Options& options, const Globals& globals, const StillRenderer& render,
-               std::vector<Still>& stills) {
-    for (Still& still : stills) {
-        ConsoleProgress progress(globals.quiet);
-        const Image image = render(stillParams(options, still.camera), progress, still.report);
-        writePicture(pictureOptions(options, still.path), image,
-                     {{"vlf.mode", nameOf(kModeNames, options.still.mode)},
-                      {"vlf.camera", still.camera.name}});
-    }
-}
-
-void renderByCpu(const Options& options, const Globals& globals, const BakedRoom& room,
-                 std::vector<Still>& stills) {
-    const RayScene rays(room.scene);
-    const auto render = [&](const StillParams& params, Progress& progress, StillReport& report) {
-        return renderStill(room.scene, rays, room.field, params, progress, &report);
-    };
-    renderAll(options, globals, render, stills);
-}
-
-/// Returns what the room takes in the memory of the GPU.
-GpuMemory renderByOpenGl(const Options& options, const Globals& globals, const BakedRoom& room,
-                         std::vector<Still>& stills) {
-    const gl::HeadlessContext context;
-    Renderer renderer(room.scene, room.field);
-    const auto render = [&](const StillParams& params, Progress& progress, StillReport& report) {
-        return renderStill(renderer, params, progress, &report);
-    };
-    renderAll(options, globals, render, stills);
-    return renderer.memory();
-}
-
-void run(const Options& options, const Globals& globals) {
-    if (options.allCameras && options.picture.path.find('%') == std::string::npos)
-        throw CLI::ValidationError("-o", "needs a % for the cameras' names with --all-cameras");
-    requireWritableOutputs({options.picture.path, options.json});
+void run(const CLI::App& command, const RenderOptions& options, const Globals& globals) {
+    requireConsistent(command, options);
+    requireWritableOutputs({options.json});
+    if (!options.film.moves()) requireWritableOutputs({options.picture.path});
     const BakedRoom room = readField(options.field);
-    std::vector<Still> stills = stillsToRender(options, room.scene);
-    std::optional<GpuMemory> memory;
-    if (options.backend == Backend::gl)
-        memory = renderByOpenGl(options, globals, room, stills);
-    else
-        renderByCpu(options, globals, room, stills);
-    if (!options.json.empty()) writeJson(options.json, toJson(options, stills, memory));
-    if (globals.quiet) return;
-    for (const Still& still : stills)
-        fmt::print("{}: {}x{} pixels, {:.2f} million rays in {:.2f} s\n", still.path,
-                   options.camera.width, options.camera.height, 1e-6 * still.report.rays,
-                   still.report.seconds);
-}
-
-void addModeOptions(CLI::App& command, StillParams& still) {
-    command.add_option("--mode", still.mode, "What to show; see below")
-        ->transform(CLI::CheckedTransformer(kModeNames))
-        ->option_text("raytraced|field|wireframe|diagram [raytraced]");
-    command
-        .add_option("--lookup", still.lookup,
-                    "Mode field: correct the lookup by the depth of what is seen, or not")
-        ->transform(CLI::CheckedTransformer(kLookupNames))
-        ->option_text("depth|plain [depth]");
-    command
-        .add_option("--antialias", still.antialias,
-                    "Up to N x N rays per pixel, as many where the picture has detail")
-        ->check(CLI::Range(1, 16))
-        ->type_name("N")
-        ->capture_default_str();
-    command.add_flag("--normals", still.normals, "Mode wireframe: draw shading normals");
-}
-
-void addDiagramOptions(CLI::App& command, Options& options) {
-    DiagramParams& diagram = options.still.diagram;
-    command.add_option("--diagram", diagram.kind, "Mode diagram: what to draw")
-        ->transform(CLI::CheckedTransformer(kDiagramNames))
-        ->option_text("directions|subfield|tile|chart [directions]");
-    command.add_option("--direction", diagram.direction,
-                       "Diagram subfield or tile: number of the oriented direction");
-    command.add_option("--tile", options.tile, "Diagram subfield or tile: column and row")
-        ->delimiter(',')
-        ->expected(2)
-        ->type_name("X,Y");
-    command.add_option("--chart", diagram.chart,
-                       "Diagram chart: its number (else the one in the middle of the picture)");
+    RoomRenderer renderer(options.backend, room);
+    nlohmann::ordered_json report = toJson(options);
+    if (options.film.moves()) {
+        report["film"] = renderFilm(options, globals, renderer, room.scene.cameras);
+    } else {
+        std::vector<Still> stills = stillsToRender(options, room.scene);
+        renderStills(options, globals, renderer, stills);
+        report["pictures"] = toJson(stills);
+    }
+    if (const auto memory = renderer.gpuMemory()) report["gpuMemory"] = toJson(*memory);
+    if (!options.json.empty()) writeJson(options.json, report);
 }
 
 }  // namespace
 
 void addRender(CLI::App& app, const Globals& globals) {
-    const auto options = std::make_shared<Options>();
-    CLI::App* command = app.add_subcommand("render", "Render a still of a baked room");
-    command->add_option("field", options->field, "Field file (.vlf)")
-        ->required()
-        ->type_name("FIELD");
-    addCameraOptions(*command, options->camera);
-    command
-        ->add_flag("--all-cameras", options->allCameras,
-                   "A picture from every camera, its name in place of % in -o")
-        ->excludes("--camera")
-        ->excludes("--eye");
-    command
-        ->add_option("--backend", options->backend,
-                     "Who draws: the CPU in every mode, or OpenGL, without a window, mode field")
-        ->transform(CLI::CheckedTransformer(kBackendNames))
-        ->option_text("cpu|gl [cpu]");
-    addModeOptions(*command, options->still);
-    addDiagramOptions(*command, *options);
-    addPictureOptions(*command, options->picture);
-    command->add_option("--json", options->json, "Write a report to this file");
+    const auto options = std::make_shared<RenderOptions>();
+    CLI::App* command = app.add_subcommand("render", "Render stills or a film of a baked room");
+    addRenderOptions(*command, *options);
     command->footer(
         "Modes:\n"
-        "  raytraced  diffuse light from the field, mirrors by tracing reflections\n"
-        "  field      diffuse light and mirrors from the field, no reflection traced\n"
-        "  wireframe  a line drawing; hidden edges faint\n"
-        "  diagram    the structure of the field (--diagram)\n"
+        "  raytraced    diffuse light from the field, mirrors by tracing reflections\n"
+        "  field        diffuse light and mirrors from the field, no reflection traced\n"
+        "  progressive  what that mode of a window comes to at rest: as raytraced\n"
+        "  wireframe    a line drawing; hidden edges faint\n"
+        "  diagram      the structure of the field (--diagram)\n"
         "--exposure and --tone have no effect on drawings.\n\n"
+        "Stereo:\n"
+        "  side-by-side  both pictures in one, twice as wide\n"
+        "  anaglyph      one picture for red-cyan glasses\n"
+        "  pair          two files, NAME-left and NAME-right\n\n"
+        "Films:\n"
+        "  --path or --tour moves the camera; --film or pictures as -o NAME-%05d.png show it.\n\n"
         "Examples:\n"
         "  vlf render room.vlf --camera front --size 1024x768 -o front.png\n"
         "  vlf render room.vlf --all-cameras -o stills/%.png\n"
-        "  vlf render room.vlf --mode diagram --diagram tile -o tile.png");
-    command->callback([options, &globals] { run(*options, globals); });
+        "  vlf render room.vlf --mode diagram --diagram tile -o tile.png\n"
+        "  vlf render room.vlf --camera front --stereo anaglyph --convergence 2 -o front.png\n"
+        "  vlf render room.vlf --tour --backend gl --mode field --film tour.mp4\n"
+        "  vlf render room.vlf --path walk.json --from 2 --to 4.5 -o frames/room-%05d.exr");
+    command->callback([command, options, &globals] { run(*command, *options, globals); });
 }
 
 }  // namespace vlf::app

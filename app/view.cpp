@@ -1,224 +1,179 @@
-// vlf view: a window to walk through a baked room.
+// vlf view: a window to walk through a room, baked or while it is being baked.
 
+#include "bake_options.h"
 #include "camera_options.h"
 #include "commands.h"
 #include "console.h"
+#include "picture_output.h"
+#include "viewer/display_modes.h"
+#include "viewer/key_bindings.h"
+#include "viewer/viewer.h"
 
 #include "vlf/base/error.h"
-#include "vlf/display/camera_pose.h"
-#include "vlf/image/image_io.h"
+#include "vlf/display/preferences.h"
 #include "vlf/io/field_file.h"
-#include "vlf/render/gl/read_framebuffer.h"
-#include "vlf/render/gl/renderer.h"
+#include "vlf/live/live_bake.h"
 
 #include <algorithm>
 #include <chrono>
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <string>
+#include <thread>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
-
-#define GLFW_INCLUDE_NONE
-#include <GLFW/glfw3.h>
 
 namespace vlf::app {
 
 namespace {
 
-constexpr float kRadiansPerPixel = 0.003f;
-constexpr float kSecondsAcross = 6;     // to cross the room's bounding sphere
-constexpr float kExposureStep = 0.25f;  // EV
-constexpr const char* kPicture = "vlf-view.png";
-
-constexpr const char* kKeys =
-    "W A S D, arrows  go; Q, E: down, up; Shift: faster\n"
-    "mouse            look around while a button is held\n"
-    "1 ... 9          cameras of the scene\n"
-    "+ -              exposure;  0: back to the start\n"
-    "L                mirrors: correct the lookup by depth, or not\n"
-    "F12              write the picture to vlf-view.png\n"
-    "Escape           close";
-
 struct Options {
-    std::string field;
+    std::vector<std::string> files;
+    QualityOptions quality;
     CameraOptions camera;
+    ViewerOptions viewer;
+    std::string mode;
+    bool fresh = false;
+    bool noVsync = false;
+    std::uint64_t frames = 0;  ///< 0: until the window is closed
 };
 
-/// GLFW as long as it is needed. Throws Error with what GLFW says.
-class Window {
-  public:
-    Window(int width, int height, const std::string& title) {
-        if (!glfwInit()) fail("cannot open a display");
-        glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 4);
-        glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 5);
-        glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
-        glfwWindowHint(GLFW_DEPTH_BITS, 24);
-        window_ = glfwCreateWindow(width, height, title.c_str(), nullptr, nullptr);
-        if (!window_) fail("cannot open a window with OpenGL 4.5");
-        glfwMakeContextCurrent(window_);
-        glfwSwapInterval(1);
-    }
-    ~Window() { glfwTerminate(); }
-    Window(const Window&) = delete;
-    Window& operator=(const Window&) = delete;
+std::vector<std::string> modeNames() {
+    std::vector<std::string> names;
+    for (const ViewMode& mode : kViewModes) names.push_back(mode.name);
+    return names;
+}
 
-    GLFWwindow* handle() const { return window_; }
+std::size_t modeOf(const std::string& name) {
+    const std::vector<std::string> names = modeNames();
+    return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
+}
 
-  private:
-    [[noreturn]] static void fail(const std::string& what) {
-        const char* reason = nullptr;
-        glfwGetError(&reason);
-        const std::string text = reason ? reason : "no reason given";
-        glfwTerminate();
-        throw Error(what + ": " + text + "; vlf render makes pictures without a window");
-    }
+bool isField(const std::string& file) {
+    return std::filesystem::path(file).extension() == ".vlf";
+}
 
-    GLFWwindow* window_ = nullptr;
-};
+ViewerOptions viewerOptions(const Options& options, const Globals& globals, const Scene& scene) {
+    ViewerOptions viewer = options.viewer;
+    viewer.file = options.files.front();
+    viewer.start = chooseCamera(options.camera, scene.cameras, defaultCamera(scene));
+    viewer.window.place.width = options.camera.width;
+    viewer.window.place.height = options.camera.height;
+    viewer.window.vsync = !options.noVsync;
+    viewer.mode = modeOf(options.mode);
+    if (!options.fresh) viewer.preferences = preferencesPath();
+    viewer.quiet = globals.quiet;
+    viewer.verbose = globals.verbose;
+    return viewer;
+}
 
-/// The walk: what keys and mouse have made of camera and settings.
-class Walk {
-  public:
-    Walk(const Window& window, const BakedRoom& room, const Camera& start)
-        : window_(window.handle()), room_(room), start_(start), pose_(poseOf(start)) {
-        resetExposure();
-        glfwSetWindowUserPointer(window_, this);
-        glfwSetKeyCallback(window_, [](GLFWwindow* w, int key, int, int action, int) {
-            if (action != GLFW_RELEASE) static_cast<Walk*>(glfwGetWindowUserPointer(w))->press(key);
-        });
-        glfwSetCursorPosCallback(window_, [](GLFWwindow* w, double x, double y) {
-            static_cast<Walk*>(glfwGetWindowUserPointer(w))->point({x, y});
-        });
-    }
-
-    void advance(float seconds) {
-        const auto held = [&](int key, int other = GLFW_KEY_UNKNOWN) {
-            return glfwGetKey(window_, key) == GLFW_PRESS ||
-                   (other != GLFW_KEY_UNKNOWN && glfwGetKey(window_, other) == GLFW_PRESS);
-        };
-        const auto axis = [](bool plus, bool minus) {
-            return static_cast<float>(plus) - static_cast<float>(minus);
-        };
-        const Vec3 way(axis(held(GLFW_KEY_D, GLFW_KEY_RIGHT), held(GLFW_KEY_A, GLFW_KEY_LEFT)),
-                       axis(held(GLFW_KEY_E), held(GLFW_KEY_Q)),
-                       axis(held(GLFW_KEY_W, GLFW_KEY_UP), held(GLFW_KEY_S, GLFW_KEY_DOWN)));
-        const float speed = 2 * room_.field.frame.radius / kSecondsAcross;
-        const bool fast = held(GLFW_KEY_LEFT_SHIFT, GLFW_KEY_RIGHT_SHIFT);
-        const Vec3 metres = way * (seconds * speed * (fast ? 3.0f : 1.0f));
-        pose_.eye += metres.x * pose_.right() + Vec3(0, metres.y, 0) + metres.z * pose_.forward();
-    }
-
-    Camera camera() const { return cameraOf(pose_); }
-    const RenderSettings& settings() const { return settings_; }
-    bool takePictureWanted() { return std::exchange(pictureWanted_, false); }
-
-  private:
-    void press(int key) {
-        const auto number = static_cast<std::size_t>(key - GLFW_KEY_1);
-        if (key >= GLFW_KEY_1 && key <= GLFW_KEY_9 && number < room_.scene.cameras.size())
-            pose_ = poseOf(room_.scene.cameras[number]);
-        if (key == GLFW_KEY_0) {
-            pose_ = poseOf(start_);
-            resetExposure();
-        }
-        if (key == GLFW_KEY_EQUAL || key == GLFW_KEY_KP_ADD) settings_.exposure += kExposureStep;
-        if (key == GLFW_KEY_MINUS || key == GLFW_KEY_KP_SUBTRACT)
-            settings_.exposure -= kExposureStep;
-        if (key == GLFW_KEY_L)
-            settings_.lookup = settings_.lookup == LookupKind::plain ? LookupKind::depthCorrected
-                                                                     : LookupKind::plain;
-        if (key == GLFW_KEY_F12) pictureWanted_ = true;
-        if (key == GLFW_KEY_ESCAPE) glfwSetWindowShouldClose(window_, GLFW_TRUE);
-    }
-
-    void point(const Vec2& at) {
-        bool held = false;
-        for (const int button : {GLFW_MOUSE_BUTTON_LEFT, GLFW_MOUSE_BUTTON_RIGHT})
-            held = held || glfwGetMouseButton(window_, button) == GLFW_PRESS;
-        const Vec2 turn = kRadiansPerPixel * (at - pointer_);
-        if (held) {
-            pose_.yaw -= turn.x;
-            pose_.pitch = std::clamp(pose_.pitch - turn.y, -CameraPose::kMostPitch,
-                                     CameraPose::kMostPitch);
-        }
-        pointer_ = at;
-    }
-
-    void resetExposure() {
-        // As if all walls were grey, of reflectance 1/2.
-        const IrradianceAtlas& atlas = room_.field.atlas;
-        Image walls(static_cast<int>(atlas.width), static_cast<int>(atlas.height));
-        for (std::size_t i = 0; i < walls.pixels.size(); ++i)
-            walls.pixels[i] = atlas.irradiance[i] / (2 * kPi);
-        settings_.exposure = autoExposure(walls);
-    }
-
-    GLFWwindow* window_;
-    const BakedRoom& room_;
-    Camera start_;
-    CameraPose pose_;
-    RenderSettings settings_;
-    Vec2 pointer_{0};
-    bool pictureWanted_ = false;
-};
-
-/// Frames a second over the last half second, in the title.
-class TitleClock {
-  public:
+void walk(Viewer& viewer, std::uint64_t frames) {
     using Clock = std::chrono::steady_clock;
-
-    /// Seconds since the last call.
-    float tick(GLFWwindow* window, const std::string& name) {
+    const ConsoleProgress interrupt(true);
+    Clock::time_point last = Clock::now();
+    for (std::uint64_t i = 0; !viewer.closing() && (frames == 0 || i < frames); ++i) {
+        if (interrupt.cancelled()) break;
         const Clock::time_point now = Clock::now();
-        const float seconds = std::chrono::duration<float>(now - std::exchange(last_, now)).count();
-        ++frames_;
-        if (const float since = std::chrono::duration<float>(now - shown_).count(); since > 0.5f) {
-            const auto rate = static_cast<float>(frames_) / since;
-            glfwSetWindowTitle(window, fmt::format("{} - {:.0f} fps", name, rate).c_str());
-            frames_ = 0;
-            shown_ = now;
-        }
-        return seconds;
+        viewer.frame(std::chrono::duration<double>(now - std::exchange(last, now)).count());
     }
+    viewer.finish();
+}
 
-  private:
-    Clock::time_point last_ = Clock::now(), shown_ = last_;
-    int frames_ = 0;
-};
+void open(std::shared_ptr<const BakedRoom> room, const ViewerOptions& options,
+          std::uint64_t frames) {
+    Viewer viewer(std::move(room), options);
+    if (!options.quiet) {
+        fmt::print("H in the window shows the keys\n");
+        std::fflush(stdout);
+    }
+    walk(viewer, frames);
+}
 
-/// A picture that cannot be written does not end the walk.
-void writePicture(const Image& picture, const Globals& globals) {
-    try {
-        writePng(kPicture, picture);
-        if (!globals.quiet) fmt::print("{} written\n", kPicture);
-    } catch (const FileError& e) {
-        printWarning(globals.quiet, e.what());
+/// Waits for the first state of a live bake that can be shown. Throws InputError if its files
+/// cannot be read, and Cancelled.
+std::shared_ptr<const BakedRoom> firstRoom(LiveBake& bake, const Globals& globals) {
+    ConsoleProgress progress(globals.quiet);
+    std::string activity;
+    for (;; std::this_thread::sleep_for(std::chrono::milliseconds(5))) {
+        progress.check();
+        const std::optional<LiveUpdate> update = bake.poll();
+        if (update && update->room) return update->room;
+        const LiveStatus status = bake.status();
+        if (!status.error.empty()) throw InputError(status.error);
+        if (status.activity != activity) progress.stage(activity = status.activity);
+        progress.update(status.fraction);
     }
 }
 
-void run(const Options& options, const Globals& globals) {
-    const BakedRoom room = readField(options.field);
-    const Camera start =
-        chooseCamera(options.camera, room.scene.cameras, defaultCamera(room.scene));
-    const Window window(options.camera.width, options.camera.height, options.field);
-    Renderer renderer(room.scene, room.field);
-    Walk walk(window, room, start);
-    if (!globals.quiet) fmt::print("{}\n", kKeys);
-    TitleClock clock;
-    while (!glfwWindowShouldClose(window.handle())) {
-        glfwPollEvents();
-        walk.advance(clock.tick(window.handle(), options.field));
-        int width = 0, height = 0;
-        glfwGetFramebufferSize(window.handle(), &width, &height);
-        if (width == 0 || height == 0) {  // minimised
-            glfwWaitEventsTimeout(0.1);
-            continue;
-        }
-        renderer.draw(viewOf(walk.camera(), width, height, renderer.nearest()), walk.settings(), 0);
-        if (walk.takePictureWanted()) writePicture(readFramebuffer(0, width, height), globals);
-        glfwSwapBuffers(window.handle());
-    }
+void viewScene(const Options& options, const Globals& globals) {
+    requireWritableOutputs({options.viewer.output});
+    LiveOptions live;
+    live.programVersion = VLF_VERSION;
+    LiveBake bake(options.files, bakeParams(options.quality, globals), live);
+    std::shared_ptr<const BakedRoom> room = firstRoom(bake, globals);
+    for (const std::string& warning : bake.status().warnings) printWarning(globals.quiet, warning);
+    ViewerOptions viewer = viewerOptions(options, globals, room->scene);
+    viewer.live = &bake;
+    open(std::move(room), viewer, options.frames);
+}
+
+void viewField(const Options& options, const Globals& globals) {
+    const auto room = std::make_shared<const BakedRoom>(readField(options.files.front()));
+    open(room, viewerOptions(options, globals, room->scene), options.frames);
+}
+
+void run(const Options& options, const Globals& globals, bool asksForBake) {
+    requireWritableOutputs({options.viewer.session.record, options.viewer.session.log});
+    if (std::none_of(options.files.begin(), options.files.end(), isField))
+        return viewScene(options, globals);
+    if (options.files.size() > 1)
+        throw CLI::ValidationError("FILE", "takes one field file, or any number of scene files");
+    if (asksForBake)
+        throw CLI::ValidationError("FILE", options.files.front() +
+                                               " is baked already: -o and the options of quality "
+                                               "are for scene files");
+    viewField(options, globals);
+}
+
+void addWindowOptions(CLI::App& command, Options& options) {
+    command.add_flag("--fullscreen", options.viewer.window.fullscreen, "Fill the screen");
+    command
+        .add_option("--samples", options.viewer.window.samples,
+                    "Samples per pixel, for smooth edges; 0: none")
+        ->check(CLI::Range(0, 16))
+        ->option_text("N [4, or 0 where the CPU draws]");
+    command.add_flag("--no-vsync", options.noVsync, "Draw as fast as possible");
+    command.add_option("--frames", options.frames, "Close after N frames")->type_name("N");
+    command.add_flag("--fresh", options.fresh, "Neither use nor change what is remembered");
+    command
+        .add_option("--shaders", options.viewer.renderer.shaderFolder,
+                    "Folder of shaders to use in place of the built-in ones; loaded anew whenever "
+                    "they change")
+        ->check(CLI::ExistingDirectory)
+        ->type_name("DIR");
+}
+
+void addSessionOptions(CLI::App& command, SessionOptions& session) {
+    CLI::Option_group* group = command.add_option_group("Session", "Writing down and replaying");
+    group->add_option("--record", session.record, "Write the camera's path (.json)")
+        ->type_name("PATH");
+    CLI::Option* replay = group->add_option("--replay", session.replay, "Follow a camera path")
+                              ->check(CLI::ExistingFile)
+                              ->type_name("PATH");
+    group->add_flag("--loop", session.loop, "Begin the replay again when it ends")->needs(replay);
+    group
+        ->add_option("--fps", session.fps,
+                     "Frames a second of the session's own time, whatever they take: replays are "
+                     "then equal, frame by frame")
+        ->check(CLI::Range(1.0, 1000.0))
+        ->type_name("N");
+    group->add_option("--log", session.log, "Write every frame's times and pose (.csv or .json)")
+        ->check(frameLogNameProblem, "log name")
+        ->type_name("LOG");
 }
 
 }  // namespace
@@ -227,16 +182,42 @@ void addView(CLI::App& app, const Globals& globals) {
     const auto options = std::make_shared<Options>();
     options->camera.width = 1024;
     options->camera.height = 768;
-    CLI::App* command = app.add_subcommand("view", "Walk through a baked room in a window");
-    command->add_option("field", options->field, "Field file (.vlf)")
+    options->viewer.window.samples = 4;
+    options->mode = kViewModes.front().name;
+    CLI::App* command = app.add_subcommand("view", "Walk through a room in a window");
+    command
+        ->add_option("files", options->files,
+                     "A field file (.vlf), or scene files, which are baked meanwhile")
         ->required()
-        ->type_name("FIELD");
+        ->type_name("FILE...");
     addCameraOptions(*command, options->camera);
-    command->footer(std::string("Keys:\n") + kKeys +
-                    "\n\nExamples:\n"
+    addWindowOptions(*command, *options);
+    command->add_option("--mode", options->mode, "What to show first; M shows the next")
+        ->check(CLI::IsMember(modeNames()))
+        ->capture_default_str();
+    addSessionOptions(*command, options->viewer.session);
+    const CLI::Option* output =
+        command
+            ->add_option("-o,--output", options->viewer.output,
+                         "Of scene files: write the finished bake (.vlf); F5 saves it as it is")
+            ->type_name("FIELD");
+    const CLI::Option_group* quality = addQualityOptions(*command, options->quality);
+    command->footer("Keys:\n" + keyHelp() +
+                    "\nPlace, speed, bookmarks and the window are remembered; see --fresh. Of "
+                    "scene files,\nchanges on disk are baked anew.\n\n"
+                    "Examples:\n"
                     "  vlf view room.vlf\n"
-                    "  vlf view room.vlf --camera front --size 1280x960");
-    command->callback([options, &globals] { run(*options, globals); });
+                    "  vlf view room.vlf --camera front --size 1280x960\n"
+                    "  vlf view room.obj -o room.vlf\n"
+                    "  vlf view room.vlf --record walk.json\n"
+                    "  vlf view room.vlf --replay walk.json --fps 30 --log frames.csv");
+    command->callback([options, command, output, quality, &globals] {
+        for (const char* chosen : {"--camera", "--eye", "--up", "--fov"})
+            options->viewer.startChosen |= command->count(chosen) > 0;
+        options->viewer.samplesChosen = command->count("--samples") > 0;
+        options->viewer.placeChosen = command->count("--size") > 0;
+        run(*options, globals, output->count() > 0 || quality->count_all() > 0);
+    });
 }
 
 }  // namespace vlf::app

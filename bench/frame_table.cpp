@@ -1,10 +1,12 @@
-// Frame times of the OpenGL renderer against those of the same room without its mirrors:
-// frame_table FIELD [--camera NAME] [--width W] [--height H] [--frames N]
+// Frame times of the OpenGL renderer in each mode against a plain textured rasterisation of the
+// same views and against the same room without its mirrors, and of the calls in which mode
+// progressive comes to rest: frame_table FIELD [--camera NAME] [--width W] [--height H] [--frames
+// N] [--budget MS]
+
+#include "frame_timing.h"
 
 #include "vlf/io/field_file.h"
-#include "vlf/render/gl/gl_object.h"
-#include "vlf/render/gl/headless_context.h"
-#include "vlf/render/gl/renderer.h"
+#include "vlf/render/gl/progressive.h"
 
 #include <algorithm>
 #include <chrono>
@@ -17,36 +19,13 @@
 namespace {
 
 using namespace vlf;
+using namespace vlf::bench;
 
 struct Options {
     std::string field, camera;
     int width = 1024, height = 768, frames = 60;
+    double budget = 33;  ///< milliseconds of a call in mode progressive
 };
-
-struct Target {
-    gl::TextureObject color = gl::makeTexture(GL_TEXTURE_2D);
-    gl::TextureObject depth = gl::makeTexture(GL_TEXTURE_2D);
-    gl::Framebuffer framebuffer = gl::makeFramebuffer();
-
-    Target(int width, int height) {
-        glTextureStorage2D(color.id(), 1, GL_RGBA8, width, height);
-        glTextureStorage2D(depth.id(), 1, GL_DEPTH_COMPONENT24, width, height);
-        glNamedFramebufferTexture(framebuffer.id(), GL_COLOR_ATTACHMENT0, color.id(), 0);
-        glNamedFramebufferTexture(framebuffer.id(), GL_DEPTH_ATTACHMENT, depth.id(), 0);
-    }
-};
-
-/// Mirrors become diffuse surfaces, as the atlas has them.
-BakedRoom withoutMirrors(BakedRoom room) {
-    for (Material& material : room.scene.materials) material.mirror = Vec3(0);
-    room.field.radiance = {};
-    return room;
-}
-
-double percentile(std::vector<double> values, double part) {
-    std::sort(values.begin(), values.end());
-    return values[static_cast<std::size_t>(part * static_cast<double>(values.size() - 1))];
-}
 
 struct Way {
     const char* name;
@@ -62,33 +41,66 @@ void drawFrames(const Options& options, const Camera& camera, std::vector<Way>& 
     // In turns, so that whatever else the machine does weighs on all alike.
     for (int frame = -3; frame < options.frames; ++frame)
         for (Way& way : ways) {
-            const auto start = std::chrono::steady_clock::now();
-            way.renderer.draw(view, way.settings, target.framebuffer.id());
-            glFinish();
-            const std::chrono::duration<double, std::milli> time =
-                std::chrono::steady_clock::now() - start;
-            if (frame >= 0) way.milliseconds.push_back(time.count());
+            const double time = frameTime(way.renderer, view, way.settings, target);
+            if (frame >= 0) way.milliseconds.push_back(time);
         }
+}
+
+/// How long the calls take in which a still view fills in.
+void measureRest(const Options& options, Renderer& renderer, const Camera& camera) {
+    using Clock = std::chrono::steady_clock;
+    using Milliseconds = std::chrono::duration<double, std::milli>;
+    const Target target(options.width, options.height);
+    ProgressiveRenderer progressive(renderer);
+    const View view = viewOf(camera, options.width, options.height, renderer.nearest());
+    std::vector<double> calls;
+    double firstSample = 0;
+    const Clock::time_point begin = Clock::now();
+    // The first call shows mode field.
+    for (int call = 0; call <= options.frames * 4; ++call) {
+        const Clock::time_point start = Clock::now();
+        progressive.draw(view, {}, target.framebuffer.id(), 1e-3 * options.budget);
+        glFinish();
+        if (call > 0) calls.push_back(Milliseconds(Clock::now() - start).count());
+        if (progressive.samples() > 0 && firstSample == 0)
+            firstSample = Milliseconds(Clock::now() - begin).count();
+    }
+    std::printf(
+        "%-12s %-18s median %.1f, p99 %.1f, longest %.1f ms a call; first sample %.0f ms, "
+        "%d samples after %zu calls\n",
+        camera.name.c_str(), "progressive", percentile(calls, 0.5), percentile(calls, 0.99),
+        percentile(calls, 1), firstSample, progressive.samples(), calls.size());
 }
 
 void measure(const Options& options, const BakedRoom& room, const Camera& camera) {
     const BakedRoom plainRoom = withoutMirrors(room);
-    Renderer renderer(room.scene, room.field), plain(plainRoom.scene, plainRoom.field);
-    RenderSettings raster;
-    raster.tone = ToneCurve::clamp;
-    RenderSettings plainLookup;
+    Renderer renderer(room.scene, room.field), walls(plainRoom.scene, plainRoom.field);
+    Renderer textured(plainRoom.scene, plainRoom.field, {VLF_PLAIN_SHADERS});
+    RenderSettings plainLookup, traced;
     plainLookup.lookup = LookupKind::plain;
-    std::vector<Way> ways{{"mirrors as walls", plain, raster, {}},
-                          {"field, plain", renderer, plainLookup, {}},
-                          {"field, depth", renderer, {}, {}}};
+    traced.mode = DisplayMode::raytraced;
+    RenderSettings wireframe, diagram[4];
+    wireframe.mode = DisplayMode::wireframe;
+    for (int kind = 0; kind < 4; ++kind) {
+        diagram[kind].mode = DisplayMode::diagram;
+        diagram[kind].diagram.kind = static_cast<DiagramKind>(kind);
+        diagram[kind].diagramCamera = camera;
+    }
+    std::vector<Way> ways{
+        {"plain rasterisation", textured, {}, {}},   {"mirrors as walls", walls, {}, {}},
+        {"field, plain", renderer, plainLookup, {}}, {"field, depth", renderer, {}, {}},
+        {"raytraced", renderer, traced, {}},         {"wireframe", renderer, wireframe, {}},
+        {"directions", renderer, diagram[0], {}},    {"subfield", renderer, diagram[1], {}},
+        {"tile", renderer, diagram[2], {}},          {"chart", renderer, diagram[3], {}}};
     drawFrames(options, camera, ways);
     const double base = percentile(ways[0].milliseconds, 0.5);
     for (const Way& way : ways) {
         const double median = percentile(way.milliseconds, 0.5);
-        std::printf("%-12s %-18s %7.2f ms %6.1f fps %5.2fx  p99/median %.2f\n", camera.name.c_str(),
+        std::printf("%-12s %-20s %7.2f ms %6.1f fps %5.2fx  p99/median %.2f\n", camera.name.c_str(),
                     way.name, median, 1000 / median, median / base,
                     percentile(way.milliseconds, 0.99) / median);
     }
+    measureRest(options, renderer, camera);
 }
 
 }  // namespace
@@ -101,6 +113,7 @@ int main(int argc, char** argv) {
     app.add_option("--width", options.width);
     app.add_option("--height", options.height);
     app.add_option("--frames", options.frames);
+    app.add_option("--budget", options.budget, "Milliseconds of a call in mode progressive");
     CLI11_PARSE(app, argc, argv);
     const BakedRoom room = readField(options.field);
     const gl::HeadlessContext context;

@@ -18,8 +18,10 @@ struct GoldenPicture {
     DisplayMode mode = DisplayMode::raytraced;
     LookupKind lookup = LookupKind::depthCorrected;
     DiagramKind diagram = DiagramKind::directions;
+    bool openGl = false;  ///< drawn by the GPU
 
-    std::string name() const { return scene + "-" + camera + "-" + shows; }
+    std::string name() const { return scene + "-" + camera + (openGl ? "-gl-" : "-") + shows; }
+    std::string nameByCpu() const { return scene + "-" + camera + "-" + shows; }
 };
 
 const std::vector<GoldenPicture>& goldenPictures();

@@ -108,6 +108,16 @@ TEST(GoldenPictureSet, IsTheSameOnEveryInstructionSet) {
     useInstructionSet(best);
 }
 
+TEST(GoldenPictureSet, OfOpenGlIsNearThatOfTheCpu) {
+    for (const GoldenPicture& golden : goldenPictures()) {
+        const fs::path byCpu = kKept / (golden.nameByCpu() + ".png");
+        if (!golden.openGl || !fs::exists(byCpu)) continue;
+        const PictureDifference d =
+            difference(readImage(keptFile(golden).string()), readImage(byCpu.string()));
+        EXPECT_LT(d.flip, 0.02) << golden.name();
+    }
+}
+
 TEST(GoldenPictureSet, HoldsNothingThatIsNotTested) {
     std::set<fs::path> tested, kept;
     for (const GoldenPicture& golden : goldenPictures()) tested.insert(keptFile(golden));

@@ -27,6 +27,8 @@ struct PictureLimits {
 
 /// Of lines and flat colours, which hardly depend on the bake.
 inline const PictureLimits kDrawing{"drawing", {0.0001, 0.0005, 0.001}};
+/// Of drawings by OpenGL, where rounding and rasterisation are the driver's.
+inline const PictureLimits kDrawnByGpu{"drawn by a GPU", {0.0005, 0.003, 0.002}};
 /// Of baked light: ten times what rounding changes on another instruction set. One per cent more
 /// light, or other samples, are beyond them.
 inline const PictureLimits kBakedLight{"baked light", {0.0005, 0.002, 0.004}};

@@ -56,6 +56,11 @@ std::string linkTarget(const std::string& path) {
     return target.empty() ? path : target.string();
 }
 
+bool isNoRegularFile(const std::string& target) {
+    std::error_code ignored;
+    return fs::exists(target, ignored) && !fs::is_regular_file(target, ignored);
+}
+
 std::string newNameBeside(const std::string& path) {
     static std::atomic<unsigned> counter{0};
     return path + ".tmp-" + std::to_string(::getpid()) + "-" + std::to_string(counter++);
@@ -78,27 +83,31 @@ std::vector<std::uint8_t> readFile(const std::string& path) {
 
 void writeFile(const std::string& path, std::span<const std::uint8_t> bytes) {
     const std::string target = linkTarget(path);
-    std::error_code ignored;
-    if (fs::exists(target, ignored) && !fs::is_regular_file(target, ignored)) {
-        writeTo(target, 0, bytes, path);
-        return;
-    }
-    const std::string fresh = newNameBeside(target);
-    try {
-        writeTo(fresh, O_CREAT | O_EXCL, bytes, path);
-        if (std::rename(fresh.c_str(), target.c_str()) != 0)
-            throw FileError(path, "cannot write: " + systemMessage(errno));
-    } catch (...) {
-        ::unlink(fresh.c_str());
-        throw;
-    }
+    if (isNoRegularFile(target)) return writeTo(target, 0, bytes, path);
+    PendingFile file(path);
+    writeTo(file.name(), O_CREAT | O_EXCL, bytes, path);
+    file.commit();
+}
+
+PendingFile::PendingFile(const std::string& path)
+    : path_(path), target_(linkTarget(path)), name_(newNameBeside(target_)) {
+    if (isNoRegularFile(target_)) throw FileError(path, "cannot write: not a regular file");
+}
+
+PendingFile::~PendingFile() {
+    ::unlink(name_.c_str());
+}
+
+void PendingFile::commit() {
+    if (std::rename(name_.c_str(), target_.c_str()) != 0)
+        throw FileError(path_, "cannot write: " + systemMessage(errno));
 }
 
 void requireWritable(const std::string& path) {
     const std::string target = linkTarget(path);
     std::error_code ignored;
     if (fs::is_directory(target, ignored)) throw FileError(path, "cannot write: it is a folder");
-    if (fs::exists(target, ignored) && !fs::is_regular_file(target, ignored)) return;
+    if (isNoRegularFile(target)) return;
     fs::path folder = fs::path(target).parent_path();
     if (folder.empty()) folder = ".";
     if (!fs::is_directory(folder, ignored))

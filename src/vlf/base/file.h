@@ -16,6 +16,27 @@ std::vector<std::uint8_t> readFile(const std::string& path);
 /// device or pipe is written to directly.
 void writeFile(const std::string& path, std::span<const std::uint8_t> bytes);
 
+/// A file that appears under its name only when it is complete: writeFile for those that write
+/// piece by piece, or let another program write.
+class PendingFile {
+  public:
+    /// Nothing is created yet. Throws FileError if `path` is something else than a regular file.
+    explicit PendingFile(const std::string& path);
+    /// Removes what was not committed.
+    ~PendingFile();
+    PendingFile(const PendingFile&) = delete;
+    PendingFile& operator=(const PendingFile&) = delete;
+
+    /// Name of the file to write, in the folder of `path`.
+    const std::string& name() const { return name_; }
+
+    /// Renames it to `path`, in place of an old file. Throws FileError.
+    void commit();
+
+  private:
+    std::string path_, target_, name_;
+};
+
 /// Throws FileError if writeFile could not but fail: `path` is a folder, or its own folder is
 /// missing or nothing may be created there. To be asked before long work.
 void requireWritable(const std::string& path);

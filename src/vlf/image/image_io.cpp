@@ -118,10 +118,6 @@ std::size_t pixelCount(int width, int height) {
     return static_cast<std::size_t>(width) * height;
 }
 
-std::uint8_t srgb8FromLinear(float linear) {
-    return static_cast<std::uint8_t>(std::lround(255 * srgbFromLinear(linear)));
-}
-
 void appendBytes(void* target, void* data, int count) {
     const auto* first = static_cast<const std::uint8_t*>(data);
     auto& bytes = *static_cast<std::vector<std::uint8_t>*>(target);

@@ -33,6 +33,10 @@ Vec3 linearFromSrgb(const Vec3& encoded) {
     return {linearFromSrgb(encoded.x), linearFromSrgb(encoded.y), linearFromSrgb(encoded.z)};
 }
 
+std::uint8_t srgb8FromLinear(float linear) {
+    return static_cast<std::uint8_t>(std::lround(255 * srgbFromLinear(linear)));
+}
+
 float linearFromSrgb8(std::uint8_t encoded) {
     static const std::array<float, 256> table = makeDecodeTable();
     return table[encoded];

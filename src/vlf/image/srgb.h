@@ -15,6 +15,9 @@ Vec3 srgbFromLinear(const Vec3& linear);
 float linearFromSrgb(float encoded);
 Vec3 linearFromSrgb(const Vec3& encoded);
 
+/// 8-bit encoded value of a linear one, as srgbFromLinear.
+std::uint8_t srgb8FromLinear(float linear);
+
 /// Linear value of an 8-bit encoded one, by table.
 float linearFromSrgb8(std::uint8_t encoded);
 

@@ -48,6 +48,9 @@ struct Camera {
     std::string name;
     Vec3 eye{0, 0, 0}, look{0, 0, -1}, up{0, 1, 0};
     float verticalFov = 50;
+    /// Where the picture's centre lies on the plane one metre before the eye: metres to the right of
+    /// and above the line of sight. Of one eye of a pair; scene files do not hold it.
+    Vec2 shift{0};
 };
 
 struct Scene {

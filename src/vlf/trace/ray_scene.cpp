@@ -47,6 +47,12 @@ void fillPacket(std::span<const Ray> rays, RTCRay8& packet, std::array<int, kPac
 
 }  // namespace
 
+float rayEpsilon(const Scene& scene) {
+    float largest = 0;
+    for (const Vec3& p : scene.positions) largest = std::max(largest, maxComponent(glm::abs(p)));
+    return 4e-6f * std::max(largest, boundingSphere(scene).radius);
+}
+
 struct RayScene::Impl {
     RTCDevice device = nullptr;
     RTCScene scene = nullptr;
@@ -78,10 +84,7 @@ RayScene::RayScene(const Scene& scene, RayIsa isa) : impl_(std::make_unique<Impl
     rtcCommitScene(impl_->scene);
     if (rtcGetDeviceError(impl_->device) != RTC_ERROR_NONE)
         throw Error("the ray tracing kernels could not build the scene: out of memory?");
-
-    float largest = 0;
-    for (const Vec3& p : scene.positions) largest = std::max(largest, maxComponent(glm::abs(p)));
-    impl_->epsilon = 4e-6f * std::max(largest, boundingSphere(scene).radius);
+    impl_->epsilon = rayEpsilon(scene);
 }
 
 RayScene::~RayScene() = default;

@@ -33,6 +33,10 @@ struct Hit {
 /// Instruction set of the kernels: part of what makes a result reproducible.
 enum class RayIsa { automatic, sse42, avx2, avx512 };
 
+/// Distance by which a ray's origin is to be moved off a surface it starts on, in metres: grows with
+/// the scene and with its distance from the world's origin.
+float rayEpsilon(const Scene& scene);
+
 /// Acceleration structure over all triangles of a scene. Immutable and safe to use from several
 /// threads. Keeps its own copy of the geometry.
 class RayScene {
@@ -53,8 +57,7 @@ class RayScene {
     /// Many shadow rays at once: blocked[i] is 1 if ray i is occluded, else 0.
     void occluded(std::span<const Ray> rays, std::span<std::uint8_t> blocked) const;
 
-    /// Distance by which a ray's origin is to be moved off a surface it starts on, in metres:
-    /// grows with the scene and with its distance from the world's origin.
+    /// rayEpsilon of the scene.
     float epsilon() const;
 
   private:

@@ -39,6 +39,7 @@ const std::map<std::string, std::set<std::string>> kArrows{
 const std::map<std::string, std::string> kOwners{
     {"tbb", "base"},      {"oneapi", "base"}, {"embree3", "trace"},     {"embree4", "trace"},
     {"hwy", "propagate"}, {"zstd.h", "io"},   {"tiny_gltf.h", "scene"}, {"epoxy", "render"},
+    {"GLFW", "display"},  {"imgui.h", "app"}, {"backends", "app"},
 };
 
 struct SourceFile {

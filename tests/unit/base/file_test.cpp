@@ -44,6 +44,29 @@ TEST_F(FileTest, ReplacesAnOldFileAndLeavesNothingElse) {
     EXPECT_EQ(fileCount(), 1);
 }
 
+TEST_F(FileTest, APendingFileAppearsWhenItIsCommitted) {
+    writeFile(path("a"), oldBytes_);
+    PendingFile file(path("a"));
+    writeFile(file.name(), newBytes_);
+    EXPECT_EQ(readFile(path("a")), oldBytes_);
+    file.commit();
+    EXPECT_EQ(readFile(path("a")), newBytes_);
+    EXPECT_EQ(fileCount(), 1);
+}
+
+TEST_F(FileTest, APendingFileThatIsGivenUpLeavesTheOldOne) {
+    writeFile(path("a"), oldBytes_);
+    {
+        PendingFile file(path("a"));
+        writeFile(file.name(), newBytes_);
+        EXPECT_EQ(fileCount(), 2);
+    }
+    EXPECT_EQ(readFile(path("a")), oldBytes_);
+    EXPECT_EQ(fileCount(), 1);
+    EXPECT_THROW(PendingFile(path("never")).commit(), FileError);
+    EXPECT_THROW(PendingFile("/dev/null"), FileError);
+}
+
 TEST_F(FileTest, SaysWhichFileCannotBeRead) {
     try {
         readFile(path("missing"));

@@ -5,7 +5,7 @@
 #include "vlf/base/error.h"
 #include "vlf/render/cpu/camera_rays.h"
 #include "vlf/render/cpu/line_layer.h"
-#include "vlf/render/cpu/mesh_edges.h"
+#include "vlf/render/drawing/mesh_edges.h"
 #include "vlf/render/cpu/projection.h"
 #include "vlf/render/cpu/wireframe.h"
 

@@ -1,15 +1,13 @@
 #include "vlf/render/gl/renderer.h"
 
+#include "open_gl.h"
 #include "small_rooms.h"
 #include "vlf/base/error.h"
-#include "vlf/image/flip.h"
 #include "vlf/image/srgb.h"
-#include "vlf/image/tone_map.h"
-#include "vlf/render/gl/gl_object.h"
-#include "vlf/render/gl/headless_context.h"
 #include "vlf/render/gl/read_framebuffer.h"
-#include "vlf/render/gl/still.h"
 
+#include <filesystem>
+#include <fstream>
 #include <numeric>
 #include <string>
 #include <vector>
@@ -18,80 +16,18 @@
 
 namespace vlf::test {
 
-namespace {
-
-using gl::HeadlessContext;
-
-void noteMessage(GLenum, GLenum, GLuint, GLenum severity, GLsizei, const GLchar* text,
-                 const void* messages) {
-    if (severity == GL_DEBUG_SEVERITY_NOTIFICATION) return;
-    static_cast<std::vector<std::string>*>(const_cast<void*>(messages))->push_back(text);
-}
-
-/// A context that must not have had anything to complain of by the end of the test.
-class OpenGl : public ::testing::Test {
-  protected:
-    void SetUp() override {
-        glEnable(GL_DEBUG_OUTPUT);
-        glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
-        glDebugMessageCallback(noteMessage, &messages_);
-    }
-    void TearDown() override {
-        EXPECT_EQ(gl::liveObjects(), 0);
-        EXPECT_EQ(messages_, std::vector<std::string>());
-        EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
-    }
-
-    HeadlessContext context_{true};
-    std::vector<std::string> messages_;
-};
-
-/// A picture for the display.
-struct Target {
-    gl::Framebuffer framebuffer = gl::makeFramebuffer();
-    gl::TextureObject color = gl::makeTexture(GL_TEXTURE_2D);
-    gl::TextureObject depth = gl::makeTexture(GL_TEXTURE_2D);
-
-    Target(int width, int height) {
-        glTextureStorage2D(color.id(), 1, GL_RGBA8, width, height);
-        glTextureStorage2D(depth.id(), 1, GL_DEPTH_COMPONENT24, width, height);
-        glNamedFramebufferTexture(framebuffer.id(), GL_COLOR_ATTACHMENT0, color.id(), 0);
-        glNamedFramebufferTexture(framebuffer.id(), GL_DEPTH_ATTACHMENT, depth.id(), 0);
-    }
-};
-
-StillParams stillOf(const Camera& camera, LookupKind lookup = LookupKind::depthCorrected) {
-    StillParams params;
-    params.camera = camera;
-    params.width = 160;
-    params.height = 120;
-    params.mode = DisplayMode::field;
-    params.lookup = lookup;
-    return params;
-}
-
-double meanFlip(const Image& picture, const Image& reference) {
-    const float exposure = autoExposure(reference);
-    const auto error = flip(toneMap(picture, exposure, ToneCurve::filmic),
-                            toneMap(reference, exposure, ToneCurve::filmic))
-                           .error;
-    return std::accumulate(error.begin(), error.end(), 0.0) / static_cast<double>(error.size());
-}
-
-double flipAgainstCpu(const BakedExample& room, const StillParams& params) {
-    Progress progress;
-    Renderer renderer(room.scene, room.field);
-    return meanFlip(renderStill(renderer, params, progress),
-                    renderStill(room.scene, room.rays, room.field, params, progress));
-}
-
-}  // namespace
-
 TEST_F(OpenGl, DrawsDiffuseRoomsAsTheCpuDoes) {
     for (const auto& [name, camera] : {std::pair{"cornell", "front"}, {"two-rooms", "door"}}) {
         const BakedExample room = smallRoom(name);
         EXPECT_LT(flipAgainstCpu(room, stillOf(room.camera(camera))), 0.01) << name;
     }
+}
+
+TEST_F(OpenGl, DrawsShiftedPicturesAsTheCpuDoes) {
+    const BakedExample room = smallRoom("cornell");
+    StillParams params = stillOf(room.camera("front"));
+    params.camera.shift = {0.3f, -0.2f};
+    EXPECT_LT(flipAgainstCpu(room, params), 0.01);
 }
 
 TEST_F(OpenGl, DrawsTexturesAsTheCpuDoes) {
@@ -157,30 +93,7 @@ TEST_F(OpenGl, LeavesTheStateOfItsHostAsItWas) {
     const BakedExample room = smallRoom("cornell");
     Renderer renderer(room.scene, room.field);
     const Target target(64, 48);
-    glViewport(3, 4, 50, 40);
-    glScissor(5, 6, 7, 8);
-    glEnable(GL_BLEND);
-    glDepthFunc(GL_GREATER);
-    glDepthMask(GL_FALSE);
-    glCullFace(GL_FRONT);
-    glFrontFace(GL_CW);
-    glClearColor(0.25f, 0.5f, 0.75f, 1);
-    glActiveTexture(GL_TEXTURE2);
-    glBindTexture(GL_TEXTURE_2D, target.color.id());
-    const auto state = [] {
-        std::vector<GLint> values;
-        for (const GLenum name :
-             {GL_VIEWPORT, GL_SCISSOR_BOX, GL_BLEND, GL_DEPTH_TEST, GL_SCISSOR_TEST, GL_CULL_FACE,
-              GL_DEPTH_FUNC, GL_DEPTH_WRITEMASK, GL_CULL_FACE_MODE, GL_FRONT_FACE,
-              GL_ACTIVE_TEXTURE, GL_TEXTURE_BINDING_2D, GL_CURRENT_PROGRAM, GL_VERTEX_ARRAY_BINDING,
-              GL_DRAW_FRAMEBUFFER_BINDING, GL_READ_FRAMEBUFFER_BINDING, GL_UNIFORM_BUFFER_BINDING,
-              GL_COLOR_CLEAR_VALUE}) {
-            GLint value[4] = {0, 0, 0, 0};
-            glGetIntegerv(name, value);
-            values.insert(values.end(), value, value + 4);
-        }
-        return values;
-    };
+    disturbState(target);
     const auto before = state();
     renderer.draw(viewOf(room.camera("front"), 64, 48, 0.01f), {}, target.framebuffer.id());
     EXPECT_EQ(state(), before);
@@ -192,28 +105,66 @@ TEST_F(OpenGl, LeavesTheStateOfItsHostAsItWas) {
 
 TEST_F(OpenGl, RefusesWhatItCannotDraw) {
     const BakedExample& room = mirrorRoom();
-    LightField without = room.field;
-    without.radiance = {};
-    EXPECT_THROW(Renderer(room.scene, without), InputError);
     LightField other = room.field;
     other.triangleCharts.pop_back();
     EXPECT_THROW(Renderer(room.scene, other), InputError);
     Renderer renderer(room.scene, room.field);
     StillParams params = stillOf(room.camera("front"));
-    params.mode = DisplayMode::raytraced;
+    params.antialias = 0;
     Progress progress;
     EXPECT_THROW(renderStill(renderer, params, progress), InputError);
+    const Target target(64, 48);
+    RenderSettings settings;
+    settings.mode = DisplayMode::progressive;
+    EXPECT_THROW(
+        renderer.draw(viewOf(params.camera, 64, 48, 0.01f), settings, target.framebuffer.id()),
+        InputError);
     params = stillOf(room.camera("front"));
     progress.cancel();
     EXPECT_THROW(renderStill(renderer, params, progress), Cancelled);
 }
 
+TEST_F(OpenGl, TakesNewShadersAndKeepsTheOldOnesIfTheyAreAtFault) {
+    const std::filesystem::path folder =
+        std::filesystem::path(::testing::TempDir()) / "vlf_reloaded_shaders";
+    std::filesystem::create_directories(folder);
+    const auto write = [&](const std::string& text) {
+        std::ofstream(folder / "tone_map.glsl") << text;
+    };
+    write("vec4 outputColor(vec3 radiance) { return vec4(0.25, 0, 0, 1); }\n");
+    const BakedExample room = smallRoom("cornell");
+    Renderer renderer(room.scene, room.field, {folder.string()});
+    Progress progress;
+    const StillParams params = stillOf(room.camera("inside"));
+    const auto red = [&] { return renderStill(renderer, params, progress).at(80, 60).x; };
+    EXPECT_EQ(red(), 0.25f);
+    write("vec4 outputColor(vec3 radiance) { return nonsense; }\n");
+    EXPECT_THROW(renderer.reloadShaders(), InputError);
+    EXPECT_EQ(red(), 0.25f);
+    write("vec4 outputColor(vec3 radiance) { return vec4(0.5, 0, 0, 1); }\n");
+    renderer.reloadShaders();
+    EXPECT_EQ(red(), 0.5f);
+    write("nonsense");
+    EXPECT_THROW(Renderer(room.scene, room.field, {folder.string()}), InputError);
+    std::filesystem::remove_all(folder);
+    EXPECT_FALSE(messages_.empty());
+    messages_.clear();
+}
+
 TEST_F(OpenGl, SaysHowMuchMemoryItTakes) {
-    const Renderer renderer(mirrorRoom().scene, mirrorRoom().field);
+    Renderer renderer(mirrorRoom().scene, mirrorRoom().field);
     const GpuMemory& memory = renderer.memory();
+    EXPECT_EQ(memory.hits, 0u);
+    const std::uint64_t ofField = memory.total();
     EXPECT_EQ(memory.atlas, 4 * mirrorRoom().field.atlas.irradiance.size());
     EXPECT_GT(memory.geometry, 0u);
     EXPECT_GE(memory.radiance, 4 * memory.radianceElements);
+    StillParams params = stillOf(mirrorRoom().camera("mirror"));
+    params.mode = DisplayMode::raytraced;
+    Progress progress;
+    renderStill(renderer, params, progress);
+    EXPECT_GE(memory.hits, 2 * 16 * mirrorRoom().scene.triangles.size());
+    EXPECT_EQ(memory.total(), ofField + memory.hits);
 }
 
 }  // namespace vlf::test

@@ -88,7 +88,8 @@ class TraceShader : public ::testing::TestWithParam<const char*> {
             rayTexels.emplace_back(ray.origin, 0);
             rayTexels.emplace_back(ray.direction, 0);
         }
-        const Program program = ShaderLibrary(folder_.string()).program("search", {});
+        ShaderLibrary shaders(folder_.string());
+        const GLuint program = shaders.program("search", {});
         const Buffer buffers[] = {
             makeBuffer(bvh.nodes.data(), bvh.nodes.size() * sizeof(BvhNode)),
             makeBuffer(bvh.triangles.data(), bvh.triangles.size() * sizeof(BvhTriangle)),
@@ -98,13 +99,13 @@ class TraceShader : public ::testing::TestWithParam<const char*> {
         for (int i = 0; i < 3; ++i) {
             textures.push_back(makeBufferTexture(buffers[i], GL_RGBA32F));
             glBindTextureUnit(static_cast<GLuint>(i), textures.back().id());
-            glProgramUniform1i(program.id(), glGetUniformLocation(program.id(), names[i]), i);
+            glProgramUniform1i(program, glGetUniformLocation(program, names[i]), i);
         }
         return draw(program);
     }
 
   private:
-    static std::vector<Vec4> draw(const Program& program) {
+    static std::vector<Vec4> draw(GLuint program) {
         const TextureObject found = makeTexture(GL_TEXTURE_2D);
         glTextureStorage2D(found.id(), 1, GL_RGBA32F, kWidth, kHeight);
         const Framebuffer target = makeFramebuffer();
@@ -113,7 +114,7 @@ class TraceShader : public ::testing::TestWithParam<const char*> {
         glBindFramebuffer(GL_FRAMEBUFFER, target.id());
         glViewport(0, 0, kWidth, kHeight);
         glBindVertexArray(nothing.id());
-        glUseProgram(program.id());
+        glUseProgram(program);
         glDrawArrays(GL_TRIANGLES, 0, 3);
         glUseProgram(0);
         std::vector<Vec4> pixels(kWidth * kHeight);

@@ -27,9 +27,21 @@ TEST(View, PutsPointsWhereTheCpuDoes) {
     }
 }
 
+TEST(View, ShiftsThePictureAsTheCpuDoes) {
+    Camera camera = kCamera;
+    camera.shift = {0.2f, -0.15f};
+    const View view = viewOf(camera, 320, 200, 0.01f);
+    const Projection projection(camera, 320, 200);
+    for (const Vec3& p : {Vec3(-2, 1, -4), Vec3(0, 0, 0), Vec3(-5, 3, -1)}) {
+        const Vec2 pixel = pixelOf(view, p), expected = projection.project(p)->position;
+        EXPECT_NEAR(pixel.x, expected.x, 1e-3f);
+        EXPECT_NEAR(pixel.y, expected.y, 1e-3f);
+    }
+}
+
 TEST(View, AnOffsetSamplesElsewhereInThePixel) {
     const Vec3 p(-1, 1, -2);
-    const Vec2 moved = pixelOf(viewOf(kCamera, 320, 200, 0.01f, {0.25f, -0.5f}), p) -
+    const Vec2 moved = pixelOf(shifted(viewOf(kCamera, 320, 200, 0.01f), {0.25f, -0.5f}), p) -
                        pixelOf(viewOf(kCamera, 320, 200, 0.01f), p);
     EXPECT_NEAR(moved.x, -0.25f, 1e-3f);
     EXPECT_NEAR(moved.y, 0.5f, 1e-3f);

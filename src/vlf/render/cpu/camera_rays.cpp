@@ -11,8 +11,9 @@ void requireView(const Camera& camera, int width, int height) {
         throw InputError("camera \"" + camera.name + "\": " + what);
     };
     if (width < 1 || height < 1) fail("the picture needs at least one pixel each way");
-    if (!isFinite(camera.eye) || !isFinite(camera.look) || !isFinite(camera.up))
-        fail("eye, look and up must be finite numbers");
+    if (!isFinite(camera.eye) || !isFinite(camera.look) || !isFinite(camera.up) ||
+        !isFinite(Vec3(camera.shift, 0)))
+        fail("eye, look, up and shift must be finite numbers");
     if (!(camera.verticalFov > 0 && camera.verticalFov < 180))
         fail("the field of view must lie between 0 and 180 degrees");
     const Vec3 forward = camera.look - camera.eye;
@@ -32,7 +33,8 @@ CameraRays::CameraRays(const Camera& camera, int width, int height) : eye_(camer
     const float pixel = 2 * std::tan(0.5f * camera.verticalFov * (kPi / 180)) / height;
     right_ = pixel * right;
     down_ = -pixel * up;
-    corner_ = forward - 0.5f * width * right_ - 0.5f * height * down_;
+    const Vec3 centre = forward + camera.shift.x * right + camera.shift.y * up;
+    corner_ = centre - 0.5f * width * right_ - 0.5f * height * down_;
 }
 
 }  // namespace vlf

@@ -4,31 +4,13 @@
 #include "vlf/base/progress.h"
 #include "vlf/field/light_field.h"
 #include "vlf/image/image.h"
+#include "vlf/render/drawing/diagram_params.h"
 #include "vlf/scene/scene.h"
 #include "vlf/trace/ray_scene.h"
 
 #include <cstdint>
-#include <optional>
 
 namespace vlf {
-
-enum class DiagramKind {
-    directions,  ///< the direction set on its sphere: a cell per direction, coloured by its solid
-                 ///< angle (blue: smaller than the mean, red: larger), the triangulation, and dots,
-                 ///< dark for the upper of the two senses of a line
-    subfield,    ///< one parallel subfield around the room: its tiles and a ray through each
-    tile,        ///< one tile: its cells, its rays, and the charts they meet, each in its colour
-    chart,       ///< the texels of one chart, coloured by irradiance from black to pale yellow
-};
-
-/// What is not given is chosen: a direction that shows well, the tile in the middle, the chart
-/// in the middle of the picture.
-struct DiagramParams {
-    DiagramKind kind = DiagramKind::directions;
-    std::optional<std::uint32_t> direction;  ///< oriented direction of the bake's direction set
-    std::optional<std::uint32_t> tileX, tileY;
-    std::optional<std::uint32_t> chart;
-};
 
 /// A diagram in display-linear colours. `directions` and `chart` lie over a dimmed picture from the
 /// camera; `subfield` and `tile` look at the whole bounding sphere along the camera's line of
@@ -37,5 +19,17 @@ struct DiagramParams {
 Image drawDiagram(const Scene& scene, const RayScene& rays, const LightField& field,
                   const Camera& camera, int width, int height, int antialias,
                   const DiagramParams& params, Progress& progress, std::uint64_t& traced);
+
+/// The chart of diagram `chart`: the given one, or that in the middle of the camera's picture.
+/// Throws InputError if it is not in the field, or nothing is there.
+std::uint32_t chooseChart(const Scene& scene, const RayScene& rays, const LightField& field,
+                          const DiagramParams& params, const Camera& camera);
+
+/// Luminance of the brightest texel of a chart.
+float brightestTexel(const IrradianceAtlas& atlas, const Chart& chart);
+
+/// The rim of a texel in diagram `chart`: its width, of the texel's side, and its colour, which is
+/// this much of the texel's, and a little more.
+inline constexpr float kTexelRim = 0.05f, kTexelRimShade = 0.35f, kTexelRimLight = 0.03f;
 
 }  // namespace vlf

@@ -25,11 +25,13 @@ Projection::Projection(const Camera& camera, int width, int height)
     right_ = glm::normalize(glm::cross(forward_, glm::normalize(camera.up)));
     down_ = glm::cross(forward_, right_);
     focalLength_ = 0.5f * height / std::tan(0.5f * camera.verticalFov * (kPi / 180));
+    shift_ = {camera.shift.x, -camera.shift.y};
 }
 
 Vec3 Projection::toView(const Vec3& p) const {
     const Vec3 d = p - eye_;
-    return {glm::dot(right_, d), glm::dot(down_, d), glm::dot(forward_, d)};
+    const float depth = glm::dot(forward_, d);
+    return {glm::dot(right_, d) - depth * shift_.x, glm::dot(down_, d) - depth * shift_.y, depth};
 }
 
 PicturePoint Projection::fromView(const Vec3& v) const {
@@ -59,7 +61,7 @@ std::optional<PictureSegment> Projection::project(const Vec3& a, const Vec3& b) 
 }
 
 Vec3 Projection::unproject(const Vec2& position, float depth) const {
-    const Vec2 v = depth / focalLength_ * (position - 0.5f * size_);
+    const Vec2 v = depth / focalLength_ * (position - 0.5f * size_) + depth * shift_;
     return eye_ + v.x * right_ + v.y * down_ + depth * forward_;
 }
 

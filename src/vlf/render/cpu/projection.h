@@ -41,12 +41,15 @@ class Projection {
     Vec3 unproject(const Vec2& position, float depth) const;
 
   private:
-    Vec3 toView(const Vec3& p) const;  ///< right, down, forward in metres
+    /// Metres to the right of and below what the picture's centre shows at its depth, and the
+    /// depth.
+    Vec3 toView(const Vec3& p) const;
     PicturePoint fromView(const Vec3& v) const;
 
     Vec3 eye_, right_, down_, forward_;
     Vec2 size_;          ///< pixels
     float focalLength_;  ///< pixels
+    Vec2 shift_;         ///< Camera::shift, counted to the right and down
 };
 
 }  // namespace vlf

@@ -9,15 +9,16 @@
 namespace vlf {
 
 enum class DisplayMode {
-    raytraced,  ///< diffuse light from the atlas, reflections traced
-    field,      ///< diffuse light from the atlas, mirrors looked up in the radiance field
-    wireframe,  ///< a line drawing
-    diagram,    ///< the structure of the field
+    raytraced,    ///< diffuse light from the atlas, reflections traced
+    field,        ///< diffuse light from the atlas, mirrors looked up in the radiance field
+    progressive,  ///< field while the view moves, raytraced once it rests: a still is raytraced
+    wireframe,    ///< a line drawing
+    diagram,      ///< the structure of the field
 };
 
 /// Whether pictures of a mode are radiance; otherwise they are display-linear colours in [0, 1].
 inline bool showsRadiance(DisplayMode mode) {
-    return mode == DisplayMode::raytraced || mode == DisplayMode::field;
+    return mode != DisplayMode::wireframe && mode != DisplayMode::diagram;
 }
 
 struct StillParams {

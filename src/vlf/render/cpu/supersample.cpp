@@ -54,12 +54,10 @@ class TileSampler {
         : camera_(camera), shade_(shade) {}
 
     void addPixel(int x, int y, int n) {
-        // No two of the n² points share a row or column of the finest grid, so that edges of any
-        // slope are met in n² steps [Kensler, Correlated multi-jittered sampling, 2013, fig. 1].
-        for (int j = 0; j < n; ++j)
-            for (int i = 0; i < n; ++i)
-                queue_.push_back(
-                    camera_.ray(x + (i + (j + 0.5f) / n) / n, y + (j + (i + 0.5f) / n) / n));
+        for (int i = 0; i < n * n; ++i) {
+            const Vec2 point = samplePoint(i, n);
+            queue_.push_back(camera_.ray(x + point.x, y + point.y));
+        }
     }
 
     /// Colours the pixels added since the last call, n x n rays each, in their order.

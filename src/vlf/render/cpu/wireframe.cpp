@@ -2,61 +2,36 @@
 
 #include "vlf/base/parallel.h"
 #include "vlf/render/cpu/camera_rays.h"
-#include "vlf/render/cpu/mesh_edges.h"
+#include "vlf/render/drawing/mesh_edges.h"
+#include "vlf/render/drawing/wireframe_lines.h"
 
 #include <algorithm>
-#include <array>
 #include <vector>
 
 namespace vlf {
 
 namespace {
 
-constexpr Vec3 kNormalInk{0.8f, 0.18f, 0.02f};
-
-constexpr float kStrokeLength = 2;      ///< pixels between tests of visibility
-constexpr float kFullStrength = 14;     ///< pixels: shorter edges of triangles are paler
-constexpr float kFarStrength = 0.4f;    ///< of what lies at the far end of the scene
-constexpr float kSurfaceSlack = 5e-4f;  ///< part of the way to the eye in which nothing hides
-
-enum Sheet { hidden, triangleEdges, creases, normalLines, kSheets };
-
-struct Pen {
-    float thickness;  ///< pixels
-    float strength;
-    Vec3 color;
-};
-
-constexpr std::array<Pen, kSheets> kPens{{
-    {1.0f, 0.16f, kInk},
-    {0.9f, 0.45f, kInk},
-    {1.5f, 1.0f, kInk},
-    {1.0f, 0.9f, kNormalInk},
-}};
+using namespace wireframe;
 
 /// A short piece of a line, all of it visible or all of it hidden.
 struct Stroke {
     Vec2 from, to;
     float strength;
-    Sheet sheet;
+    std::uint32_t pen;
 };
 
 /// A line as it is to be drawn where it is visible and where not.
 struct Line {
     Vec3 from, to;
-    Sheet whereVisible;
+    std::uint32_t whereVisible;
     bool showHidden;
 };
 
 class StrokeMaker {
   public:
     StrokeMaker(const Scene& scene, const RayScene& rays, const Projection& projection)
-        : rays_(rays), projection_(projection) {
-        const Sphere sphere = boundingSphere(scene);
-        const float distance = glm::distance(sphere.centre, projection.eye());
-        near_ = std::max(distance - sphere.radius, 0.0f);
-        far_ = distance + sphere.radius;
-    }
+        : rays_(rays), projection_(projection), cue_(boundingSphere(scene), projection.eye()) {}
 
     /// Appends the strokes of a line; returns the number of rays traced.
     std::uint64_t add(const Line& line, std::vector<Stroke>& strokes) const {
@@ -70,7 +45,7 @@ class StrokeMaker {
         for (int i = 0; i < count; ++i) {
             if (blocked[i] && !line.showHidden) continue;
             const float s = 1.0f / count;
-            const float strength = density * depthCue(segment->depthAt((i + 0.5f) * s));
+            const float strength = density * cue_.strength(segment->depthAt((i + 0.5f) * s));
             strokes.push_back({segment->at(i * s), segment->at((i + 1) * s), strength,
                                blocked[i] ? hidden : line.whereVisible});
         }
@@ -95,14 +70,9 @@ class StrokeMaker {
         return {projection_.eye(), p - projection_.eye(), 0, 1 - kSurfaceSlack};
     }
 
-    float depthCue(float depth) const {
-        const float t = std::clamp((depth - near_) / std::max(far_ - near_, 1e-20f), 0.0f, 1.0f);
-        return glm::mix(1.0f, kFarStrength, t * t);
-    }
-
     const RayScene& rays_;
     const Projection& projection_;
-    float near_, far_;  ///< metres
+    DepthCue cue_;
 };
 
 std::vector<Line> edgeLines(const Scene& scene, const Vec3& eye) {
@@ -114,17 +84,14 @@ std::vector<Line> edgeLines(const Scene& scene, const Vec3& eye) {
     return lines;
 }
 
-/// Half the size of the triangle long, on the side that is seen.
+/// Of the visible triangles, on the side that is seen.
 void addNormals(const Scene& scene, const StrokeMaker& maker, const Vec3& eye,
                 std::vector<Line>& lines) {
-    const float longest = 0.08f * boundingSphere(scene).radius;
-    for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) {
-        const Vec3 centre = positionAt(scene, t, Vec2(1 / 3.0f));
-        if (!maker.visible(centre)) continue;
-        const Vec3 normal = shadingNormalAt(scene, t, Vec2(1 / 3.0f));
-        const float side = glm::dot(normal, eye - centre) < 0 ? -1.0f : 1.0f;
-        const float length = std::min(0.5f * std::sqrt(2 * area(scene, t)), longest);
-        lines.push_back({centre, centre + side * length * normal, normalLines, false});
+    for (const PenLine& normal : vlf::normalLines(scene)) {
+        if (!maker.visible(normal.from)) continue;
+        const Vec3 along = normal.to - normal.from;
+        const float side = glm::dot(along, eye - normal.from) < 0 ? -1.0f : 1.0f;
+        lines.push_back({normal.from, normal.from + side * along, normal.pen, false});
     }
 }
 
@@ -143,17 +110,17 @@ std::uint64_t drawLines(const std::vector<Line>& lines, const StrokeMaker& maker
     for (const std::uint64_t n : traced) total += n;
     for (const std::vector<Stroke>& part : strokes)
         for (const Stroke& s : part)
-            sheets[s.sheet].line(s.from, s.to, kPens[s.sheet].thickness,
-                                 s.strength * kPens[s.sheet].strength);
+            sheets[kPens[s.pen].sheet].line(s.from, s.to, kPens[s.pen].thickness,
+                                            s.strength * kPens[s.pen].strength);
     return total;
 }
 
 }  // namespace
 
 void drawSegment(LineLayer& layer, const Projection& projection, const Vec3& from, const Vec3& to,
-                 float thickness, float strength) {
+                 const Pen& pen) {
     if (const std::optional<PictureSegment> s = projection.project(from, to))
-        layer.line(s->from.position, s->to.position, thickness, strength);
+        layer.line(s->from.position, s->to.position, pen.thickness, pen.strength);
 }
 
 Image drawWireframe(const Scene& scene, const RayScene& rays, const Camera& camera, int width,
@@ -163,11 +130,11 @@ Image drawWireframe(const Scene& scene, const RayScene& rays, const Camera& came
     const StrokeMaker maker(scene, rays, projection);
     std::vector<Line> lines = edgeLines(scene, camera.eye);
     if (normals) addNormals(scene, maker, camera.eye, lines);
-    std::vector<LineLayer> sheets(kSheets, LineLayer(width, height));
+    std::vector<LineLayer> sheets(kColors.size(), LineLayer(width, height));
     traced = drawLines(lines, maker, sheets, progress);
     if (normals) traced += scene.triangles.size();
     Image image(width, height, kPaper);
-    for (int i = 0; i < kSheets; ++i) sheets[i].drawOn(image, kPens[i].color);
+    for (std::size_t i = 0; i < sheets.size(); ++i) sheets[i].drawOn(image, kColors[i]);
     return image;
 }
 

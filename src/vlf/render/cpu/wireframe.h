@@ -5,6 +5,7 @@
 #include "vlf/image/image.h"
 #include "vlf/render/cpu/line_layer.h"
 #include "vlf/render/cpu/projection.h"
+#include "vlf/render/drawing/pen.h"
 #include "vlf/scene/scene.h"
 #include "vlf/trace/ray_scene.h"
 
@@ -12,13 +13,9 @@
 
 namespace vlf {
 
-/// Paper and ink of drawings, display-linear.
-inline constexpr Vec3 kPaper{0.92f, 0.93f, 0.95f};
-inline constexpr Vec3 kInk{0.02f, 0.03f, 0.06f};
-
-/// A line through space that nothing hides.
+/// A line or dot in space that nothing hides.
 void drawSegment(LineLayer& layer, const Projection& projection, const Vec3& from, const Vec3& to,
-                 float thickness, float strength);
+                 const Pen& pen);
 
 /// The scene's triangles as lines, in display-linear colours: creases, borders and contours strong
 /// and, where something hides them, faint; the other edges thin, the thinner the denser they lie;

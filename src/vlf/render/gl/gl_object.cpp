@@ -53,4 +53,8 @@ Framebuffer makeFramebuffer() {
     return Framebuffer(made([](GLuint* id) { glCreateFramebuffers(1, id); }));
 }
 
+Query makeQuery(GLenum target) {
+    return Query(made([&](GLuint* id) { glCreateQueries(target, 1, id); }));
+}
+
 }  // namespace vlf::gl

@@ -56,6 +56,9 @@ struct VertexArrayKind {
 struct FramebufferKind {
     static void destroy(GLuint id) { glDeleteFramebuffers(1, &id); }
 };
+struct QueryKind {
+    static void destroy(GLuint id) { glDeleteQueries(1, &id); }
+};
 struct ProgramKind {
     static void destroy(GLuint id) { glDeleteProgram(id); }
 };
@@ -68,6 +71,7 @@ using Buffer = detail::Object<detail::BufferKind>;
 using TextureObject = detail::Object<detail::TextureKind>;
 using VertexArray = detail::Object<detail::VertexArrayKind>;
 using Framebuffer = detail::Object<detail::FramebufferKind>;
+using Query = detail::Object<detail::QueryKind>;
 using Program = detail::Object<detail::ProgramKind>;
 using Shader = detail::Object<detail::ShaderKind>;
 
@@ -78,5 +82,6 @@ TextureObject makeTexture(GLenum target);
 TextureObject makeBufferTexture(const Buffer& buffer, GLenum format);
 VertexArray makeVertexArray();
 Framebuffer makeFramebuffer();
+Query makeQuery(GLenum target);
 
 }  // namespace vlf::gl

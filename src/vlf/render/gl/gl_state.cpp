@@ -20,11 +20,19 @@ StateGuard::StateGuard() {
     glGetBooleanv(GL_COLOR_WRITEMASK, colorMask_.data());
     glGetFloatv(GL_COLOR_CLEAR_VALUE, clearColor_.data());
     glGetFloatv(GL_DEPTH_CLEAR_VALUE, &clearDepth_);
+    glGetFloatv(GL_POLYGON_OFFSET_FACTOR, &offsetFactor_);
+    glGetFloatv(GL_POLYGON_OFFSET_UNITS, &offsetUnits_);
     glGetBooleanv(GL_DEPTH_WRITEMASK, &depthMask_);
     glGetIntegerv(GL_CURRENT_PROGRAM, &program_);
     glGetIntegerv(GL_VERTEX_ARRAY_BINDING, &vertexArray_);
     glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &drawBuffer_);
     glGetIntegerv(GL_READ_FRAMEBUFFER_BINDING, &readBuffer_);
+    glGetIntegerv(GL_BLEND_EQUATION_RGB, &blendEquation_[0]);
+    glGetIntegerv(GL_BLEND_EQUATION_ALPHA, &blendEquation_[1]);
+    glGetIntegerv(GL_BLEND_SRC_RGB, &blendFunction_[0]);
+    glGetIntegerv(GL_BLEND_DST_RGB, &blendFunction_[1]);
+    glGetIntegerv(GL_BLEND_SRC_ALPHA, &blendFunction_[2]);
+    glGetIntegerv(GL_BLEND_DST_ALPHA, &blendFunction_[3]);
     glGetIntegerv(GL_DEPTH_FUNC, &depthFunction_);
     glGetIntegerv(GL_CULL_FACE_MODE, &cullFace_);
     glGetIntegerv(GL_FRONT_FACE, &frontFace_);
@@ -50,11 +58,16 @@ StateGuard::~StateGuard() {
     glColorMask(colorMask_[0], colorMask_[1], colorMask_[2], colorMask_[3]);
     glClearColor(clearColor_[0], clearColor_[1], clearColor_[2], clearColor_[3]);
     glClearDepthf(clearDepth_);
+    glPolygonOffset(offsetFactor_, offsetUnits_);
     glDepthMask(depthMask_);
     glUseProgram(static_cast<GLuint>(program_));
     glBindVertexArray(static_cast<GLuint>(vertexArray_));
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, static_cast<GLuint>(drawBuffer_));
     glBindFramebuffer(GL_READ_FRAMEBUFFER, static_cast<GLuint>(readBuffer_));
+    const auto e = [](GLint value) { return static_cast<GLenum>(value); };
+    glBlendEquationSeparate(e(blendEquation_[0]), e(blendEquation_[1]));
+    glBlendFuncSeparate(e(blendFunction_[0]), e(blendFunction_[1]), e(blendFunction_[2]),
+                        e(blendFunction_[3]));
     glDepthFunc(static_cast<GLenum>(depthFunction_));
     glCullFace(static_cast<GLenum>(cullFace_));
     glFrontFace(static_cast<GLenum>(frontFace_));

@@ -27,13 +27,14 @@ class StateGuard {
 
     std::array<GLboolean, kSwitches.size()> switches_{};
     std::array<Unit, shared::kUnits> units_{};
-    std::array<GLint, 2> uniformBuffers_{};
+    std::array<GLint, 4> uniformBuffers_{};
     std::array<GLint, 4> viewport_{}, scissor_{};
     std::array<GLboolean, 4> colorMask_{};
     std::array<GLfloat, 4> clearColor_{};
-    GLfloat clearDepth_ = 1;
+    GLfloat clearDepth_ = 1, offsetFactor_ = 0, offsetUnits_ = 0;
     GLboolean depthMask_ = GL_TRUE;
     GLint program_ = 0, vertexArray_ = 0, drawBuffer_ = 0, readBuffer_ = 0, activeTexture_ = 0;
+    GLint blendEquation_[2] = {0, 0}, blendFunction_[4] = {0, 0, 0, 0};
     GLint depthFunction_ = 0, cullFace_ = 0, frontFace_ = 0, uniformBuffer_ = 0;
 };
 

@@ -1,12 +1,16 @@
 #include "vlf/render/gl/renderer.h"
 
 #include "vlf/base/error.h"
+#include "vlf/render/gl/drawings.h"
 #include "vlf/render/gl/gl_object.h"
 #include "vlf/render/gl/gl_state.h"
+#include "vlf/render/gl/hit_buffers.h"
 #include "vlf/render/gl/packed_radiance.h"
 #include "vlf/render/gl/room_geometry.h"
 #include "vlf/render/gl/scene_textures.h"
 #include "vlf/render/gl/shader_library.h"
+#include "vlf/render/gl/tone_data.h"
+#include "vlf/trace/ray_scene.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -69,46 +73,36 @@ TextureObject makeAtlasTexture(const IrradianceAtlas& atlas) {
     return texture;
 }
 
-/// Which shader draws a batch.
-struct Variant {
-    bool diffuseMap = false, emission = false, mirror = false, plain = false;
-
-    auto operator<=>(const Variant&) const = default;
-
-    Defines defines() const {
-        Defines d;
-        if (diffuseMap) d["DIFFUSE_MAP"] = "1";
-        if (emission) d["EMISSION"] = "1";
-        if (mirror) d["MIRROR"] = "\"radiance_field.glsl\"";
-        if (plain) d["PLAIN"] = "1";
-        return d;
-    }
-};
-
 }  // namespace
 
 struct Renderer::Impl {
-    Impl(const Scene& scene, const LightField& field, const RendererOptions& options)
-        : shaders(options.shaderFolder), textures(scene), materials(scene.materials) {
+    Impl(const Scene& shown, const LightField& field, const RendererOptions& options)
+        : scene(shown),
+          lightField(field),
+          charts(field.charts),
+          triangleCharts(field.triangleCharts),
+          shaders(options.shaderFolder),
+          textures(scene) {
         if (field.triangleCharts.size() != scene.triangles.size())
             throw InputError("the light field belongs to another scene: bake this one");
         const RoomGeometry room = makeRoomGeometry(scene, field);
-        if (!room.mirrorCharts.empty() && field.radiance.empty())
-            throw InputError(
-                "the light field holds no radiance of mirrors to look up: bake with radiance "
-                "directions");
+        canLookUp = room.mirrorCharts.empty() || !field.radiance.empty();
         loadGeometry(room);
         loadRadiance(field, packRadiance(field.radiance, room.mirrorCharts));
         atlas = makeAtlasTexture(field.atlas);
-        updateIrradiance(field.atlas);
+        loadIrradiance(field.atlas);
         viewBuffer = makeBuffer(nullptr, sizeof(ViewData), GL_DYNAMIC_STORAGE_BIT);
         nearest = kNearest * field.frame.radius;
+        rayStart = rayEpsilon(scene);
+        makePrograms();
         memory.atlas = 4 * field.atlas.irradiance.size();
         memory.textures = textures.bytes();
     }
 
     void loadGeometry(const RoomGeometry& room) {
         batches = room.batches;
+        indexCount = static_cast<GLsizei>(room.indices.size());
+        mirrorTriangles = room.mirrorTriangles;
         vertices = makeBuffer(room.vertices.data(), room.vertices.size() * sizeof(RoomVertex));
         indices = makeBuffer(room.indices.data(), room.indices.size() * sizeof(std::uint32_t));
         vertexArray = makeRoomVertexArray(vertices, indices);
@@ -129,7 +123,7 @@ struct Renderer::Impl {
         const RadianceField& r = field.radiance;
         const float diameter = 2 * field.frame.radius;
         viewData.fieldFrame = Vec4(field.frame.centre, static_cast<float>(r.cells - 1) / diameter);
-        viewData.field = {std::sqrt(0.5f * static_cast<float>(r.lines - 1)), r.lines,
+        viewData.field = {std::sqrt(0.5f * static_cast<float>(std::max(r.lines, 1) - 1)), r.lines,
                           0.5f * static_cast<float>(r.cells - 1),
                           kTolerance * diameter / static_cast<float>(std::max(r.cells, 1))};
         viewData.elementCode = {packed.longestDistance, packed.logSum.first, packed.logSum.step, 0};
@@ -140,7 +134,7 @@ struct Renderer::Impl {
         memory.radianceElements = packed.elements.size();
     }
 
-    void updateIrradiance(const IrradianceAtlas& light) {
+    void loadIrradiance(const IrradianceAtlas& light) {
         std::vector<std::uint32_t> packed(light.irradiance.size());
         std::transform(light.irradiance.begin(), light.irradiance.end(), packed.begin(),
                        packRgb9e5);
@@ -149,41 +143,97 @@ struct Renderer::Impl {
                             packed.data());
     }
 
-    GLuint program(const Variant& variant) {
-        Program& p = programs[variant];
-        if (!p) p = shaders.program("surface", variant.defines());
-        return p.id();
+    /// Those of mode field, so that no frame waits for them.
+    void makePrograms() {
+        for (const RoomBatch& batch : batches)
+            for (const LookupKind lookup : {LookupKind::depthCorrected, LookupKind::plain}) {
+                RenderSettings settings;
+                settings.lookup = lookup;
+                shaders.program("surface", definesOf(batch, settings));
+            }
     }
 
-    Variant variantOf(const RoomBatch& batch, const RenderSettings& settings) const {
-        Variant v;
-        v.diffuseMap = materials[batch.material].diffuseTexture >= 0;
-        v.emission = maxComponent(Vec3(batch.data.emission)) > 0;
-        v.mirror = batch.mirror;
-        v.plain = batch.mirror && settings.lookup == LookupKind::plain;
-        return v;
+    /// Of the variant of the shader that draws a batch.
+    Defines definesOf(const RoomBatch& batch, const RenderSettings& settings) const {
+        const bool traced = settings.mode == DisplayMode::raytraced;
+        Defines d;
+        if (scene.materials[batch.material].diffuseTexture >= 0) d.emplace("DIFFUSE_MAP", "1");
+        if (maxComponent(Vec3(batch.data.emission)) > 0) d.emplace("EMISSION", "1");
+        if (batch.mirror)
+            d.emplace("MIRROR", traced ? "\"traced_reflection.glsl\"" : "\"radiance_field.glsl\"");
+        if (batch.mirror && !traced && settings.lookup == LookupKind::plain)
+            d.emplace("PLAIN", "1");
+        return d;
+    }
+
+    void makeReady(DisplayMode mode) {
+        if (!showsRadiance(mode)) {
+            if (!drawings) drawings.emplace(scene, lightField, shaders);
+        } else if (mode == DisplayMode::raytraced) {
+            if (!hits) hits.emplace(scene, charts, triangleCharts, mirrorTriangles);
+            memory.hits = hits->bytes();
+        } else if (mode != DisplayMode::field) {
+            throw InputError("mode progressive takes many calls: it is ProgressiveRenderer's");
+        } else if (!canLookUp) {
+            throw InputError(
+                "the light field holds no radiance of mirrors to look up: bake with "
+                "radiance directions, or trace reflections (mode raytraced)");
+        }
     }
 
     void draw(const View& view, const RenderSettings& settings, GLuint framebuffer) {
+        makeReady(settings.mode);
         const StateGuard guard;
         viewData.clipFromWorld = view.clipFromWorld;
-        viewData.eye = Vec4(view.eye, 1);
-        viewData.tone = {std::exp2(settings.exposure), outputKind(settings), settings.textureBias,
-                         0};
+        viewData.eye = Vec4(view.eye, rayStart);
+        viewData.tone = toneData(settings);
         glNamedBufferSubData(viewBuffer.id(), 0, sizeof viewData, &viewData);
+        if (settings.mode == DisplayMode::wireframe)
+            drawWireframe(view, settings, framebuffer);
+        else if (settings.mode == DisplayMode::diagram)
+            drawDiagram(view, settings, framebuffer);
+        else
+            drawRoom(view, settings, framebuffer);
+        if (drawings) memory.drawings = drawings->bytes();
+    }
+
+    void drawRoom(const View& view, const RenderSettings& settings, GLuint framebuffer) {
         prepare(view, framebuffer);
         for (std::size_t i = 0; i < batches.size(); ++i) drawBatch(i, settings);
     }
 
-    static float outputKind(const RenderSettings& settings) {
-        if (!settings.tone) return kWriteRadiance;
-        return *settings.tone == ToneCurve::filmic ? kWriteFilmic : kWriteClamped;
+    void drawWireframe(const View& view, const RenderSettings& settings, GLuint framebuffer) {
+        prepare(view, framebuffer);
+        const auto drawTriangles = [&] {
+            glBindVertexArray(vertexArray.id());
+            glDrawElements(GL_TRIANGLES, indexCount, GL_UNSIGNED_INT, nullptr);
+        };
+        drawings->wireframe(view, settings.normals, drawTriangles, framebuffer);
+    }
+
+    void drawDiagram(const View& view, const RenderSettings& settings, GLuint framebuffer) {
+        const DiagramKind kind = settings.diagram.kind;
+        if (kind == DiagramKind::subfield || kind == DiagramKind::tile) {
+            prepare(view, framebuffer);
+            drawings->subfield(view, settings.diagram, settings.diagramCamera, framebuffer);
+            return;
+        }
+        RenderSettings beneath = settings;
+        beneath.mode = settings.diagramRoom;
+        makeReady(beneath.mode);
+        drawRoom(view, beneath, framebuffer);
+        if (kind == DiagramKind::directions)
+            drawings->directions(settings.ball);
+        else
+            drawings->chart(settings.diagram, settings.diagramCamera, atlas.id());
     }
 
     void prepare(const View& view, GLuint framebuffer) {
         glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
         glViewport(view.x, view.y, view.width, view.height);
-        glScissor(view.x, view.y, view.width, view.height);
+        const PixelRectangle part =
+            view.part.value_or(PixelRectangle{view.x, view.y, view.width, view.height});
+        glScissor(part.x, part.y, part.width, part.height);
         glEnable(GL_SCISSOR_TEST);
         for (const GLenum off :
              {GL_BLEND, GL_STENCIL_TEST, GL_FRAMEBUFFER_SRGB, GL_POLYGON_OFFSET_FILL})
@@ -203,12 +253,13 @@ struct Renderer::Impl {
         glBindTextureUnit(kIrradianceUnit, atlas.id());
         glBindTextureUnit(kElementUnit, elementTexture.id());
         glBindTextureUnit(kRecordUnit, recordTexture.id());
+        if (hits) hits->bind();
     }
 
     void drawBatch(std::size_t i, const RenderSettings& settings) {
         const RoomBatch& batch = batches[i];
-        const Material& material = materials[batch.material];
-        glUseProgram(program(variantOf(batch, settings)));
+        const Material& material = scene.materials[batch.material];
+        glUseProgram(shaders.program("surface", definesOf(batch, settings)));
         (batch.cull ? glEnable : glDisable)(GL_CULL_FACE);
         textures.bind(kDiffuseUnit, material.diffuseTexture);
         textures.bind(kEmissionUnit, material.emissionTexture);
@@ -217,18 +268,26 @@ struct Renderer::Impl {
                        reinterpret_cast<const void*>(4 * std::size_t{batch.firstIndex}));
     }
 
+    const Scene& scene;
+    const LightField& lightField;
+    std::vector<Chart> charts;
+    std::vector<TriangleCharts> triangleCharts;
     ShaderLibrary shaders;
     SceneTextures textures;
-    std::vector<Material> materials;
     std::vector<RoomBatch> batches;
-    std::map<Variant, Program> programs;
     Buffer vertices, indices, elements, records, viewBuffer;
     std::vector<Buffer> materialBuffers;  ///< of each batch
     VertexArray vertexArray;
     TextureObject atlas, elementTexture, recordTexture;
+    std::vector<std::uint32_t> mirrorTriangles;
+    std::optional<HitBuffers> hits;    ///< once reflections are traced
+    std::optional<Drawings> drawings;  ///< once one is drawn
+    GLsizei indexCount = 0;
     ViewData viewData{};
     GpuMemory memory;
-    float nearest = 0;
+    float nearest = 0, rayStart = 0;  ///< metres
+    bool canLookUp = true;
+    std::uint64_t lightChanges = 0;
 };
 
 Renderer::Renderer(const Scene& scene, const LightField& field, const RendererOptions& options)
@@ -241,8 +300,28 @@ void Renderer::draw(const View& view, const RenderSettings& settings, unsigned f
     impl_->draw(view, settings, framebuffer);
 }
 
+Camera Renderer::diagramView(const DiagramParams& params, const Camera& camera, int width,
+                             int height) {
+    if (params.kind != DiagramKind::subfield && params.kind != DiagramKind::tile) return camera;
+    impl_->makeReady(DisplayMode::diagram);
+    return impl_->drawings->overview(params, camera, width, height);
+}
+
 void Renderer::updateIrradiance(const IrradianceAtlas& atlas) {
-    impl_->updateIrradiance(atlas);
+    impl_->loadIrradiance(atlas);
+    ++impl_->lightChanges;
+}
+
+bool Renderer::canLookUp() const {
+    return impl_->canLookUp;
+}
+
+std::uint64_t Renderer::lightChanges() const {
+    return impl_->lightChanges;
+}
+
+void Renderer::reloadShaders() {
+    impl_->shaders.reload();
 }
 
 float Renderer::nearest() const {

@@ -1,10 +1,11 @@
 #pragma once
-// Pictures of a baked room by OpenGL 4.5, in a context of the host's. The same few lookups per
-// pixel in every room: diffuse light from the irradiance atlas, mirrors from the radiance field.
+// Pictures of a baked room by OpenGL 4.5, in a context of the host's. Diffuse light
+// comes from the irradiance atlas, mirrors from the radiance field, which is the same few lookups
+// per pixel in every room, or by tracing reflections.
 
 #include "vlf/field/light_field.h"
 #include "vlf/image/tone_map.h"
-#include "vlf/render/cpu/radiance_lookup.h"
+#include "vlf/render/cpu/still.h"
 #include "vlf/render/gl/view.h"
 #include "vlf/scene/scene.h"
 
@@ -20,39 +21,70 @@ struct RendererOptions {
 };
 
 struct RenderSettings {
+    DisplayMode mode = DisplayMode::field;
     LookupKind lookup = LookupKind::depthCorrected;  ///< of mirrors
     std::optional<ToneCurve> tone =
-        ToneCurve::filmic;  ///< none: writes radiance, for float targets
+        ToneCurve::filmic;  ///< none: writes radiance, or of drawings
+                            ///< display-linear colours, for float targets
     float textureBias = 0;  ///< added to the level of detail; negative: sharper, where pictures are
                             ///< averaged
     float exposure = 0;     ///< EV, before the tone curve; tone-mapped colours are sRGB-encoded
+
+    bool normals = false;                          ///< of mode wireframe
+    DiagramParams diagram;                         ///< of mode diagram
+    DisplayMode diagramRoom = DisplayMode::field;  ///< or raytraced: of the dimmed room beneath
+                                                   ///< the diagrams `directions` and `chart`
+    Camera diagramCamera;        ///< what `diagram` leaves open is chosen to show well from here
+    std::optional<Sphere> ball;  ///< where diagram `directions` hangs its ball, metres; none: in
+                                 ///< the middle of the room
 };
 
 /// Bytes in the memory of the GPU.
 struct GpuMemory {
     std::uint64_t geometry = 0, atlas = 0, radiance = 0, textures = 0;
+    std::uint64_t hits = 0;      ///< of traced reflections, once they have been drawn
+    std::uint64_t drawings = 0;  ///< of modes wireframe and diagram, likewise
     std::uint64_t radianceElements = 0;
 
-    std::uint64_t total() const { return geometry + atlas + radiance + textures; }
+    std::uint64_t total() const { return geometry + atlas + radiance + textures + hits + drawings; }
 };
 
 /// Every call, construction and destruction included, needs the context current in which it was
 /// made; draw() leaves the context's state as it finds it.
 class Renderer {
   public:
-    /// Copies what it needs to the GPU. Throws InputError if the field is not of this scene, it has
-    /// mirrors but no radiance of them, the atlas or radiance field exceed what the GPU can hold,
-    /// or a shader of options.shaderFolder is at fault.
+    /// Copies what it needs to the GPU; of scene and field, which must outlive it, what traced
+    /// reflections and drawings need when they are first drawn. Throws InputError if the field is
+    /// not of this scene, or the atlas or radiance field exceed what the GPU can hold.
     Renderer(const Scene& scene, const LightField& field, const RendererOptions& options = {});
     ~Renderer();
     Renderer(Renderer&&) noexcept;
     Renderer& operator=(Renderer&&) noexcept;
 
-    /// Clears the view's rectangle of `framebuffer`, which needs a depth attachment, and draws.
+    /// Clears the view's part of `framebuffer`, which needs a depth attachment, and draws. Throws
+    /// InputError for mode `progressive` (see ProgressiveRenderer), in mode field if the scene has
+    /// mirrors but the field no radiance of them (see canLookUp), as drawDiagram does, if what mode
+    /// raytraced or a drawing needs exceeds what the GPU can hold, or a shader of
+    /// options.shaderFolder is at fault. Drawings leave a depth buffer that is clear, but for the
+    /// diagrams `directions` and `chart`.
     void draw(const View& view, const RenderSettings& settings, unsigned framebuffer);
+
+    /// From where to look at a diagram: of kind `subfield` or `tile` at the whole bounding sphere
+    /// along the camera's line of sight, else the camera itself. Throws as draw() does.
+    Camera diagramView(const DiagramParams& params, const Camera& camera, int width, int height);
 
     /// The light has changed: the atlas is of the same charts as before.
     void updateIrradiance(const IrradianceAtlas& atlas);
+
+    /// Whether mode `field` can be drawn.
+    bool canLookUp() const;
+
+    /// How often the light has changed.
+    std::uint64_t lightChanges() const;
+
+    /// The files of options.shaderFolder have changed: makes the shaders anew. Throws InputError
+    /// with the driver's message; the old ones are then kept.
+    void reloadShaders();
 
     const GpuMemory& memory() const;
 

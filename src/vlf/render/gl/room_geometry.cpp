@@ -74,7 +74,7 @@ class GeometryMaker {
         const float lit = first.chart == kNoChart ? 0 : 1;
         batch.data.diffuse = Vec4(lit * material.diffuse, 0);
         batch.data.emission = Vec4((emits ? lit : 0) * material.emission, 0);
-        batch.data.flags = Vec4(first.cull ? 0 : 1, 0, 0, 0);
+        batch.data.flags = Vec4(first.cull ? 0 : 1, room_.mirrorTriangles.size(), 0, 0);
         batch.firstIndex = static_cast<std::uint32_t>(room_.indices.size());
         shared_.clear();
         for (const Side& side : sides) addSide(side, batch.mirror);
@@ -83,6 +83,7 @@ class GeometryMaker {
     }
 
     void addSide(const Side& side, bool mirror) {
+        if (mirror) room_.mirrorTriangles.push_back(side.triangle);
         for (int i = 0; i < 3; ++i) {
             const int corner = side.front ? i : 2 - i;
             const std::uint32_t vertex = scene_.triangles[side.triangle].vertex[corner];

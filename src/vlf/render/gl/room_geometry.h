@@ -35,6 +35,8 @@ struct RoomGeometry {
     std::vector<std::uint32_t> indices;
     std::vector<RoomBatch> batches;  ///< those of mirrors last
     std::vector<std::uint32_t> mirrorCharts;
+    std::vector<std::uint32_t> mirrorTriangles;  ///< the scene's, in the order of mirrors' batches;
+                                                 ///< data.flags.y: where a batch begins
 };
 
 /// Precondition: the field is of this scene.

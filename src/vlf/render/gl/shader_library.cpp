@@ -78,7 +78,21 @@ Shader ShaderLibrary::shader(GLenum stage, const std::string& file, const Define
     throw InputError(message + "): " + logOf(shader.id(), glGetShaderiv, glGetShaderInfoLog));
 }
 
-Program ShaderLibrary::program(const std::string& name, const Defines& defines) const {
+GLuint ShaderLibrary::program(const std::string& name, const Defines& defines) {
+    const Key key(name, defines);
+    auto found = programs_.find(key);
+    if (found == programs_.end()) found = programs_.emplace(key, make(key)).first;
+    return found->second.id();
+}
+
+void ShaderLibrary::reload() {
+    std::map<Key, Program> made;
+    for (const auto& [key, old] : programs_) made.emplace(key, make(key));
+    programs_ = std::move(made);
+}
+
+Program ShaderLibrary::make(const Key& key) const {
+    const auto& [name, defines] = key;
     const Shader vertex = shader(GL_VERTEX_SHADER, name + ".vert", defines);
     const Shader fragment = shader(GL_FRAGMENT_SHADER, name + ".frag", defines);
     Program program(glCreateProgram());

@@ -5,6 +5,7 @@
 
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace vlf::gl {
@@ -17,17 +18,25 @@ class ShaderLibrary {
     /// Files in `folder` are used in place of the built-in ones of the same name; empty: none.
     explicit ShaderLibrary(std::string folder = {}) : folder_(std::move(folder)) {}
 
-    /// The program of NAME.vert and NAME.frag. Throws InputError with the driver's message, in
-    /// which lines are named by file.
-    Program program(const std::string& name, const Defines& defines) const;
+    /// The program of NAME.vert and NAME.frag, made when first asked for. Throws InputError with
+    /// the driver's message, in which lines are named by file.
+    GLuint program(const std::string& name, const Defines& defines);
+
+    /// Makes all programs anew, from what the folder holds now; throws as program(), and all are
+    /// then as before.
+    void reload();
 
   private:
+    using Key = std::pair<std::string, Defines>;
+
+    Program make(const Key& key) const;
     Shader shader(GLenum stage, const std::string& file, const Defines& defines) const;
     std::string source(const std::string& file) const;
     std::string expand(const std::string& file, const Defines& defines,
                        std::vector<std::string>& files) const;
 
     std::string folder_;
+    std::map<Key, Program> programs_;
 };
 
 /// Built-in shader files by name.

@@ -9,8 +9,9 @@
 namespace vlf {
 
 /// As renderStill of render/cpu, by a renderer in the current context. The picture is the mean of
-/// antialias² of them, shifted by parts of a pixel; no ray is traced. Throws InputError if the mode
-/// is not `field`, the camera has no view or a number is out of range, and Cancelled.
+/// antialias² of them, shifted by parts of a pixel; the rays of mirrors are not counted. Throws
+/// InputError if the renderer does not draw the mode, the camera has no view or a number is out of
+/// range, and Cancelled.
 Image renderStill(Renderer& renderer, const StillParams& params, Progress& progress,
                   StillReport* report = nullptr);
 

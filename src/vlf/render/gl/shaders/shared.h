@@ -25,7 +25,15 @@ VLF_INT kDiffuseUnit = 1;
 VLF_INT kEmissionUnit = 2;
 VLF_INT kElementUnit = 3;  // elements of the radiance field
 VLF_INT kRecordUnit = 4;   // where they are
-VLF_INT kUnits = 5;
+VLF_INT kBvhNodeUnit = 5;  // of traced reflections alone, from here on
+VLF_INT kBvhTriangleUnit = 6;
+VLF_INT kHitRecordUnit = 7;
+VLF_INT kHitTexelUnit = 8;
+VLF_INT kMirrorTriangleUnit = 9;  // the scene's triangles by those of the mirrors' batches
+VLF_INT kUnits = 10;
+VLF_INT kPictureUnit = 0;  // of picture_mean.frag, as are these uniforms
+VLF_INT kSizeLocation = 0;
+VLF_INT kWeightLocation = 1;
 
 // Uniform blocks.
 VLF_INT kViewBlock = 0;
@@ -37,16 +45,24 @@ VLF_INT kDistanceBits = 11;
 VLF_INT kSumBits = 9;
 VLF_INT kShareBits = 6;
 
+// Flags of a chart and modes of a texture in hit_surfaces.h.
+VLF_INT kPlanarChart = 1;
+VLF_INT kEmitsBothSides = 2;
+VLF_INT kWrapClamp = 1;
+VLF_INT kWrapMirror = 2;
+
 // How colours leave the shader.
 VLF_INT kWriteRadiance = 0;
 VLF_INT kWriteFilmic = 1;
 VLF_INT kWriteClamped = 2;
+VLF_INT kWriteLinear = 3;  // of drawings: as kWriteFilmic, but not sRGB-encoded
 
 // std140.
 struct ViewData {
     mat4 clipFromWorld;
-    vec4 eye;         // world; w: unused
-    vec4 tone;        // factor, kind of output (kWrite...), bias of the level of detail of textures
+    vec4 eye;         // world; w: how far rays start off surfaces, metres
+    vec4 tone;        // factor, kind of output (kWrite...), bias of the level of detail of textures,
+                      // factor after the tone curve
     vec4 fieldFrame;  // centre, cells a metre
     vec4 field;       // rings of the direction set, lines, cells (minus 1) / 2, tolerance (metres)
     vec4 elementCode;  // metres of the longest distance, log2 of the sum at code 0, its step
@@ -56,7 +72,7 @@ struct ViewData {
 struct MaterialData {
     vec4 diffuse;   // reflectance
     vec4 emission;  // W m^-2 sr^-1
-    vec4 flags;     // x: whether the back is black
+    vec4 flags;     // x: whether the back is black; y: the batch's first triangle among mirrors'
 };
 
 #ifdef __cplusplus

@@ -12,8 +12,13 @@ vec3 toSrgb(vec3 c) {
     return max(12.92 * min(c, 0.0031308), 0.585122381 * s + 0.783140355 * q - 0.368262736 * e);
 }
 
+// A colour in [0, 1].
+vec4 shownColor(vec3 c) {
+    return vec4(view.tone.y == kWriteLinear ? c : toSrgb(min(c, 1)), 1);
+}
+
 vec4 outputColor(vec3 radiance) {
     if (view.tone.y == kWriteRadiance) return vec4(radiance, 1);
     vec3 c = max(view.tone.x * radiance, 0);
-    return vec4(toSrgb(view.tone.y == kWriteFilmic ? filmic(c) : min(c, 1)), 1);
+    return shownColor(view.tone.w * (view.tone.y == kWriteClamped ? min(c, 1) : filmic(c)));
 }

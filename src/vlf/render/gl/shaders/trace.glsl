@@ -1,11 +1,13 @@
 // Ray queries in the hierarchy of trace/bvh.h, held by two texture buffers of format RGBA32F: two
-// texels a node, three a triangle. To be pasted into a shader of version 450, below #version.
+// texels a node, three a triangle.
 //
 // Both queries are one walk forward. The loop over boxes within it runs until every ray of a group
 // that goes in step has come to a leaf: triangles are tested seldom, and by many rays at once.
 
-uniform samplerBuffer bvhNodes;
-uniform samplerBuffer bvhTriangles;
+#include "shared.h"
+
+layout(binding = kBvhNodeUnit) uniform samplerBuffer bvhNodes;
+layout(binding = kBvhTriangleUnit) uniform samplerBuffer bvhTriangles;
 
 const uint kBvhIndex = 0x07ffffffu;  // bits of a word that are an index
 const uint kNoTriangle = 0xffffffffu;

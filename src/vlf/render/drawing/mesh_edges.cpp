@@ -1,4 +1,4 @@
-#include "vlf/render/cpu/mesh_edges.h"
+#include "vlf/render/drawing/mesh_edges.h"
 
 #include "vlf/math/random.h"
 

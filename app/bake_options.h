@@ -1,0 +1,27 @@
+#pragma once
+// How well a scene is to be baked.
+
+#include "commands.h"
+
+#include "vlf/propagate/bake.h"
+
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+namespace vlf::app {
+
+/// A preset, and single settings over it; 0, and -1 where 0 means something: the preset's.
+struct QualityOptions {
+    std::string preset = "standard", bounces = "auto";
+    int directions = 0, cells = 0, tile = 0, samples = 0;
+    int radianceDirections = -1, radianceCells = 0;
+    float texel = 0;
+};
+
+/// The group of the options; `options` must outlive the parsing.
+CLI::Option_group* addQualityOptions(CLI::App& command, QualityOptions& options);
+
+BakeParams bakeParams(const QualityOptions& options, const Globals& globals);
+
+}  // namespace vlf::app

@@ -1,0 +1,33 @@
+#pragma once
+// Whoever draws the pictures of a room: the CPU, or OpenGL without a window.
+
+#include "render_options.h"
+
+#include "vlf/io/field_file.h"
+#include "vlf/render/gl/headless_context.h"
+#include "vlf/render/gl/renderer.h"
+#include "vlf/trace/ray_scene.h"
+
+#include <optional>
+
+namespace vlf::app {
+
+class RoomRenderer {
+  public:
+    /// `room` must outlive it. Throws as Renderer and HeadlessContext.
+    RoomRenderer(Backend backend, const BakedRoom& room);
+
+    /// As renderStill.
+    Image render(const StillParams& params, Progress& progress, StillReport& report);
+
+    /// What the room takes in the memory of the GPU, if that draws.
+    std::optional<GpuMemory> gpuMemory() const;
+
+  private:
+    const BakedRoom& room_;
+    std::optional<RayScene> rays_;
+    std::optional<gl::HeadlessContext> context_;
+    std::optional<Renderer> renderer_;
+};
+
+}  // namespace vlf::app

@@ -1,0 +1,45 @@
+#include "session.h"
+
+#include "vlf/display/camera_path_file.h"
+
+#include <cmath>
+
+namespace vlf::app {
+
+Session::Session(const SessionOptions& options) : options_(options), log_({"room", "overlay"}) {
+    if (!options.replay.empty()) path_ = readCameraPath(options.replay);
+}
+
+double Session::advance(double seconds) {
+    const double before = seconds_;
+    if (frames_ > 0) {
+        // Not a sum: frame n of a fixed rate is at the same time in every session.
+        seconds_ =
+            options_.fps > 0 ? static_cast<double>(frames_) / options_.fps : seconds_ + seconds;
+    }
+    ++frames_;
+    return seconds_ - before;
+}
+
+std::optional<CameraPose> Session::pose() const {
+    if (!path_) return {};
+    const double duration = path_->duration();
+    return path_->at(options_.loop && duration > 0 ? std::fmod(seconds_, duration) : seconds_);
+}
+
+bool Session::over() const {
+    return path_ && !options_.loop && seconds_ > path_->duration();
+}
+
+void Session::note(const FrameRecord& frame) {
+    if (!options_.record.empty()) recorder_.record(seconds_, frame.pose);
+    if (!options_.log.empty()) log_.add(frame);
+}
+
+void Session::finish() const {
+    if (!options_.record.empty() && !recorder_.empty())
+        writeCameraPath(options_.record, recorder_.path());
+    if (!options_.log.empty()) log_.write(options_.log);
+}
+
+}  // namespace vlf::app

@@ -1,0 +1,52 @@
+#pragma once
+// What of a walk is written down or read again: the way of the camera, and every frame's times.
+
+#include "vlf/display/camera_path.h"
+#include "vlf/display/frame_log.h"
+
+#include <optional>
+#include <string>
+
+namespace vlf::app {
+
+struct SessionOptions {
+    std::string record;  ///< camera path to write; empty: none
+    std::string replay;  ///< camera path to follow; empty: the user walks
+    std::string log;     ///< frame log to write; empty: none
+    double fps = 0;      ///< frames a second of the session's time; 0: as fast as they come
+    bool loop = false;   ///< the replay begins again when it ends
+};
+
+class Session {
+  public:
+    /// Reads the path to follow. Throws as readCameraPath does.
+    explicit Session(const SessionOptions& options);
+
+    /// A frame begins, `seconds` after the one before; returns the time between the two in the
+    /// session.
+    double advance(double seconds);
+
+    /// Where the path that is followed has the camera now; none: the user walks.
+    std::optional<CameraPose> pose() const;
+
+    /// The path that was followed has ended.
+    bool over() const;
+
+    /// What the frame has shown and taken. Of its passes: the room, what lies over it.
+    void note(const FrameRecord& frame);
+
+    /// Writes what was recorded. Throws FileError.
+    void finish() const;
+
+    double seconds() const { return seconds_; }  ///< since the start
+
+  private:
+    SessionOptions options_;
+    std::optional<CameraPath> path_;
+    PathRecorder recorder_;
+    FrameLog log_;
+    double seconds_ = 0;
+    std::uint64_t frames_ = 0;
+};
+
+}  // namespace vlf::app

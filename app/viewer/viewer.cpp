@@ -1,0 +1,338 @@
+#include "viewer.h"
+
+#include "console.h"
+#include "key_bindings.h"
+#include "numbered_file.h"
+#include "overlay.h"
+#include "panel.h"
+
+#include "vlf/base/error.h"
+#include "vlf/image/image_io.h"
+#include "vlf/render/gl/driver.h"
+#include "vlf/render/gl/read_framebuffer.h"
+#include "vlf/render/gl/still.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace vlf::app {
+
+namespace {
+
+constexpr float kRadiansPerPixel = 0.003f;
+constexpr float kLongestFrame = 0.1f;     // seconds; a stall is no leap
+constexpr float kMetering = 0.1f;         // seconds between looks at the exposure
+constexpr float kWatching = 0.25f;        // ... at the shaders
+constexpr float kTitle = 0.5f;            // ... at the title
+constexpr float kMessage = 3, kFade = 1;  // seconds a message stays, and fades in the end
+constexpr const char* kHint = "Tab: settings   H: keys   Escape: close";
+
+std::unique_ptr<Window> openWindow(const ViewerOptions& options, const Memory& memory) {
+    WindowOptions wanted = options.window;
+    wanted.title = options.file;
+    if (!options.placeChosen && memory.preferences().window)
+        wanted.place = *memory.preferences().window;
+    auto window = std::make_unique<Window>(wanted);
+    if (wanted.samples == 0 || options.samplesChosen || !gl::drawsOnCpu()) return window;
+    // Who draws is known only now.
+    wanted.samples = 0;
+    window.reset();
+    return std::make_unique<Window>(wanted);
+}
+
+std::string stemOf(const std::string& file) {
+    return std::filesystem::path(file).stem().string();
+}
+
+using Clock = std::chrono::steady_clock;
+
+double millisecondsSince(Clock::time_point start) {
+    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+/// True every so often.
+bool due(float& since, float seconds, float interval) {
+    since += seconds;
+    return since >= interval && std::exchange(since, 0.0f) > 0;
+}
+
+bool held(const Window& window, const Binding& binding) {
+    return std::any_of(binding.keys.begin(), binding.keys.end(),
+                       [&](Key key) { return window.held(key); });
+}
+
+bool matches(const Binding& binding, const KeyPress& press) {
+    return binding.press && binding.shift.value_or(press.shift) == press.shift &&
+           (binding.repeats || !press.repeated) &&
+           std::count(binding.keys.begin(), binding.keys.end(), press.key) > 0;
+}
+
+}  // namespace
+
+Viewer::Viewer(std::shared_ptr<const BakedRoom> room, const ViewerOptions& options)
+    : options_(options),
+      memory_(options.preferences, options.file, options.quiet),
+      window_(openWindow(options, memory_)),
+      gui_(*window_),
+      shownRoom_(std::make_unique<ShownRoom>(room, options.renderer)),
+      walk_(room, options.start, [this](const std::string& text) { say(text); }),
+      session_(options.session),
+      shaderWatch_(options.renderer.shaderFolder) {
+    RoomPreferences here = memory_.room();
+    if (options.startChosen) here.pose.reset();
+    walk_.recall(memory_.preferences(), here);
+    walk_.setMode(options.mode);
+    if (session_.pose()) walk_.setMovement(Movement::fly);
+    if (options.live)
+        live_.emplace(*options.live, stemOf(options.file), options.output,
+                      [this](const std::string& text) { announce(text); });
+    message_ = kHint;
+    messageAge_ = -kMessage;
+}
+
+void Viewer::frame(double seconds) {
+    const Clock::time_point start = Clock::now();
+    const float step = std::min(static_cast<float>(session_.advance(seconds)), kLongestFrame);
+    const double pathSeconds = session_.seconds();
+    window_->poll(*this);
+    move(step);
+    takeNews();
+    if (window_->hidden()) return;
+    statistics_.add(seconds);
+    reloadShaders(step);
+    drawRoom();
+    adaptExposure(step);
+    writeWantedPicture();
+    gui_.begin(shown_.panel && !window_->pointerCaptured());
+    drawMessages(static_cast<float>(seconds));
+    drawOverlays();
+    const double cpuMs = millisecondsSince(start);
+    window_->swap();
+    note(pathSeconds, cpuMs, millisecondsSince(start));
+    showTitle(static_cast<float>(seconds));
+    if (gl::contextLost())
+        throw Error(
+            "the graphics driver was reset and with it everything on the GPU; start again, or make "
+            "pictures with vlf render");
+}
+
+void Viewer::move(float seconds) {
+    const Steering wanted = steering(seconds);
+    if (const auto pose = session_.pose())
+        walk_.navigator().setPose(*pose);
+    else
+        walk_.navigator().advance(wanted, seconds);
+}
+
+void Viewer::takeNews() {
+    if (!live_) return;
+    const std::optional<LiveUpdate> update = live_->poll();
+    if (!update) return;
+    if (update->room) {
+        shownRoom_ = std::make_unique<ShownRoom>(update->room, options_.renderer);
+        walk_.enter(update->room);
+    }
+    shownRoom_->renderer().updateIrradiance(*update->irradiance);
+}
+
+void Viewer::note(double pathSeconds, double cpuMs, double totalMs) {
+    const std::optional<double> room = roomTimer_.milliseconds();
+    const std::optional<double> overlay = overlayTimer_.milliseconds();
+    FrameRecord frame;
+    frame.pathSeconds = pathSeconds;
+    frame.cpuMs = cpuMs;
+    if (room && overlay) frame.gpuMs = *room + *overlay;
+    frame.totalMs = totalMs;
+    frame.passMs = {room.value_or(0), overlay.value_or(0)};
+    frame.pose = walk_.navigator().pose();
+    session_.note(frame);
+}
+
+void Viewer::finish() {
+    remember();
+    if (live_) live_->finish();
+    session_.finish();
+}
+
+Steering Viewer::steering(float seconds) {
+    Steering steering;
+    steering.turn = std::exchange(turn_, Vec2(0));
+    if (!gui_.typing())
+        for (const Binding& binding : keyBindings())
+            if (held(*window_, binding)) {
+                steering.go += binding.go;
+                steering.fast = steering.fast || binding.fast;
+            }
+    if (const auto pad = window_->gamepad()) steering += steeringOf(*pad, seconds);
+    return steering;
+}
+
+void Viewer::keyPressed(const KeyPress& press) {
+    if (gui_.typing()) return;
+    for (const Binding& binding : keyBindings())
+        if (matches(binding, press)) binding.press(*this);
+}
+
+void Viewer::pointerDragged(const Vec2& by) {
+    if (!gui_.wantsPointer()) turn_ -= kRadiansPerPixel * by;
+}
+
+void Viewer::scrolled(float steps) {
+    if (!gui_.wantsPointer()) walk_.changeSpeed(steps);
+}
+
+void Viewer::addBookmark() {
+    walk_.addBookmark();
+    remember();
+}
+
+void Viewer::captureMouse(bool on) {
+    window_->capturePointer(on);
+    say(on ? "mouse captured: Escape frees it" : "mouse free");
+}
+
+void Viewer::toggleFullscreen() {
+    window_->setFullscreen(!window_->fullscreen());
+    say(window_->fullscreen() ? "full screen" : "window");
+}
+
+void Viewer::saveBake() {
+    if (live_)
+        live_->save();
+    else
+        say("this room comes from a field file: there is nothing to save");
+}
+
+void Viewer::escape() {
+    if (window_->pointerCaptured())
+        captureMouse(false);
+    else if (shown_.help)
+        shown_.help = false;
+    else
+        window_->close();
+}
+
+void Viewer::say(const std::string& text) {
+    message_ = text;
+    messageAge_ = 0;
+    if (!options_.verbose) return;
+    fmt::print("{}\n", text);
+    std::fflush(stdout);
+}
+
+/// What is also told on the terminal.
+void Viewer::announce(const std::string& text) {
+    say(text);
+    if (!options_.quiet && !options_.verbose) fmt::print("{}\n", text);
+}
+
+void Viewer::reloadShaders(float seconds) {
+    if (!due(sinceWatched_, seconds, kWatching) || !shaderWatch_.changed()) return;
+    try {
+        shownRoom_->reloadShaders();
+        problem_.clear();
+        say("shaders reloaded");
+    } catch (const Error& e) {
+        problem_ = e.what();
+        say("shaders kept: the new ones are at fault");
+    }
+}
+
+void Viewer::drawRoom() {
+    const gl::TimedPass pass(roomTimer_);
+    shownRoom_->draw(viewOf(walk_.camera(), window_->pixelWidth(), window_->pixelHeight(),
+                            shownRoom_->renderer().nearest()),
+                     walk_.settings(), 0);
+}
+
+void Viewer::adaptExposure(float seconds) {
+    if (!walk_.exposure().automatic()) return;
+    if (due(sinceMetered_, seconds, kMetering))
+        meter_.measure(
+            shownRoom_->renderer(), walk_.camera(),
+            static_cast<float>(window_->pixelWidth()) / static_cast<float>(window_->pixelHeight()));
+    if (const auto wanted = meter_.exposure()) walk_.exposure().adapt(*wanted, seconds);
+}
+
+void Viewer::drawMessages(float seconds) {
+    messageAge_ += seconds;
+    if (messageAge_ < kMessage) drawMessage(message_, (kMessage - messageAge_) / kFade);
+    const std::string problem = problem_.empty() && live_ ? live_->problem() : problem_;
+    if (!problem.empty()) drawProblem(problem);
+    if (const std::string line = status(); !line.empty()) drawStatus(line);
+}
+
+/// What is under way, in a line.
+std::string Viewer::status() const {
+    std::string line = live_ ? live_->activity() : std::string();
+    const std::optional<double> refined = shownRoom_->refined();
+    if (line.empty() && refined && *refined < 1)
+        line = fmt::format("refining {:.0f} %", 100 * *refined);
+    return line;
+}
+
+void Viewer::drawOverlays() {
+    if (shown_.help)
+        drawHelp();
+    else if (shown_.panel)
+        drawPanel(*this);
+    if (shown_.statistics && !shown_.help)
+        drawStatistics(
+            statistics_,
+            {{"room", roomTimer_.milliseconds()}, {"overlay", overlayTimer_.milliseconds()}},
+            shownRoom_->renderer().memory());
+    const gl::TimedPass pass(overlayTimer_);
+    gui_.draw();
+}
+
+/// A picture that cannot be written does not end the walk.
+void Viewer::writeWantedPicture() {
+    const auto kind = std::exchange(pictureWanted_, std::nullopt);
+    if (!kind) return;
+    try {
+        const std::string name = writePicture(*kind);
+        announce(name + " written");
+    } catch (const Error& e) {
+        say(e.what());
+        printWarning(options_.quiet, e.what());
+    }
+}
+
+/// As it is shown, without what lies over it, or its radiance. Returns the name of the file.
+std::string Viewer::writePicture(Picture kind) {
+    const std::string stem = stemOf(options_.file);
+    const int width = window_->pixelWidth(), height = window_->pixelHeight();
+    const std::string name = makeNumberedFile(stem, kind == Picture::png ? "png" : "exr");
+    try {
+        if (kind == Picture::png) {
+            writePng(name, readFramebuffer(0, width, height));
+            return name;
+        }
+        StillParams params;
+        params.camera = walk_.camera();
+        params.width = width;
+        params.height = height;
+        const DisplayMode mode = shownRoom_->drawable(walk_.settings().mode);
+        params.mode = mode == DisplayMode::field ? mode : DisplayMode::raytraced;
+        params.lookup = walk_.lookup();
+        Progress progress;
+        writeExr(name, renderStill(shownRoom_->renderer(), params, progress));
+    } catch (...) {
+        std::error_code ignored;
+        std::filesystem::remove(name, ignored);
+        throw;
+    }
+    return name;
+}
+
+void Viewer::showTitle(float seconds) {
+    if (due(sinceTitle_, seconds, kTitle))
+        window_->setTitle(fmt::format("{} - {:.0f} fps", options_.file, statistics_.rate()));
+}
+
+}  // namespace vlf::app

@@ -1,0 +1,3 @@
+#include "drawing_data.h"
+
+layout(std140, binding = kDrawingBlock) uniform DrawingBlock { DrawingData drawing; };
