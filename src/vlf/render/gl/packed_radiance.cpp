@@ -13,8 +13,12 @@ namespace {
 
 constexpr float kShearUnit = 1 / 256.0f, kMostShear = 15;  // exact in a float, times any row
 constexpr int kSums = (1 << shared::kSumBits) - 1;
-constexpr int kShares = (1 << shared::kShareBits) - 1;
+constexpr int kReds = (1 << shared::kRedBits) - 1, kBlues = (1 << shared::kBlueBits) - 1;
 constexpr int kDistances = (1 << shared::kDistanceBits) - 1;
+
+// What is darker than this beside the brightest cannot be seen in one picture with it.
+constexpr float kMostOctaves = 16;
+constexpr float kDarkest = 1e-20f;  // black, as a sum of red, green and blue
 
 /// The cells of a row that hold something, first and last.
 struct RowExtent {
@@ -94,17 +98,14 @@ struct Range {
         lower = std::min(lower, v);
         upper = std::max(upper, v);
     }
-    /// Codes from `least` to `largest` over the range.
-    LinearCode code(int least, int largest) const {
+    /// Codes from 0 to `largest` over the range.
+    LinearCode code(int largest) const {
         if (lower > upper) return {0, 1};
-        const float step = std::max((upper - lower) / static_cast<float>(largest - least), 1e-6f);
-        return {lower - static_cast<float>(least) * step, step};
+        return {lower, std::max((upper - lower) / static_cast<float>(largest), 1e-6f)};
     }
 };
 
 void findCodes(const RadianceField& field, PackedRadiance& packed) {
-    // What is darker than this beside the brightest cannot be seen in one picture with it.
-    constexpr float kMostOctaves = 16;
     std::uint16_t longest = 1;
     Range logSum, red, blue;
     for (const RadianceElement& e : field.elements) {
@@ -112,37 +113,46 @@ void findCodes(const RadianceField& field, PackedRadiance& packed) {
         longest = std::max(longest, e.distance);
         const Vec3 rgb = unpackRgb9e5(e.rgb9e5());
         const float sum = sumOf(rgb);
+        logSum.add(std::log2(std::max(sum, kDarkest)));
         if (sum <= 0) continue;
-        logSum.add(std::log2(sum));
         red.add(rgb.x / sum);
         blue.add(rgb.z / sum);
     }
     logSum.lower = std::max(logSum.lower, logSum.upper - kMostOctaves);
     packed.longestDistance = field.maxDistance * static_cast<float>(longest) / 65535;
-    packed.logSum = logSum.code(1, kSums);
-    packed.red = red.code(0, kShares);
-    packed.blue = blue.code(0, kShares);
+    packed.logSum = logSum.code(kSums);
+    packed.red = red.code(kReds);
+    packed.blue = blue.code(kBlues);
 }
 
-std::uint32_t encode(float v, const LinearCode& code, int least, int largest) {
-    const float c = std::round((v - code.first) / code.step);
-    return static_cast<std::uint32_t>(
-        std::clamp(c, static_cast<float>(least), static_cast<float>(largest)));
+/// Rounds up from `threshold` of the way to the next code.
+std::uint32_t encode(float v, const LinearCode& code, int largest, float threshold = 0.5f) {
+    const float c = std::floor((v - code.first) / code.step + 1 - threshold);
+    return static_cast<std::uint32_t>(std::clamp(c, 0.0f, static_cast<float>(largest)));
 }
 
-std::uint32_t pack(const RadianceElement& e, const RadianceField& field,
+/// Ordered dither: the mean of four neighbouring cells, which is what a lookup takes, is finer than
+/// the codes.
+float thresholdOf(int x, int y) {
+    constexpr float kThresholds[2][2] = {{0.125f, 0.625f}, {0.875f, 0.375f}};
+    return kThresholds[y & 1][x & 1];
+}
+
+/// What the subfield's cell (x, y) holds.
+std::uint32_t pack(const RadianceElement& e, int x, int y, const RadianceField& field,
                    const PackedRadiance& packed) {
     const float metres = field.maxDistance * static_cast<float>(e.distance) / 65535;
     const std::uint32_t distance =
-        encode(metres, {0, packed.longestDistance / kDistances}, 1, kDistances);
+        std::max(1u, encode(metres, {0, packed.longestDistance / kDistances}, kDistances));
     const Vec3 rgb = unpackRgb9e5(e.rgb9e5());
-    const float sum = sumOf(rgb);
-    if (sum <= 0) return distance;
-    return distance | encode(std::log2(sum), packed.logSum, 1, kSums) << shared::kDistanceBits |
-           encode(rgb.x / sum, packed.red, 0, kShares)
-               << (shared::kDistanceBits + shared::kSumBits) |
-           encode(rgb.z / sum, packed.blue, 0, kShares)
-               << (shared::kDistanceBits + shared::kSumBits + shared::kShareBits);
+    const float sum = std::max(sumOf(rgb), kDarkest);
+    // Each part its own pattern, so that they do not err all in the same cells.
+    const std::uint32_t logSum = encode(std::log2(sum), packed.logSum, kSums, thresholdOf(x, y));
+    const std::uint32_t red = encode(rgb.x / sum, packed.red, kReds, thresholdOf(x + 1, y));
+    const std::uint32_t blue = encode(rgb.z / sum, packed.blue, kBlues, thresholdOf(x, y + 1));
+    using namespace shared;
+    return distance | logSum << kDistanceBits | red << (kDistanceBits + kSumBits) |
+           blue << (kDistanceBits + kSumBits + kRedBits);
 }
 
 void fill(const RadianceField& field, std::uint32_t direction, std::uint32_t chart,
@@ -155,7 +165,7 @@ void fill(const RadianceField& field, std::uint32_t direction, std::uint32_t cha
             if (!e || e->distance == 0) continue;
             const std::size_t i =
                 std::size_t{record.firstElement} + static_cast<std::size_t>(y) * record.width + x;
-            packed.elements[i] = pack(*e, field, packed);
+            packed.elements[i] = pack(*e, column, record.y + y, field, packed);
         }
 }
 
