@@ -207,6 +207,24 @@ TEST_F(OpenGl, RefusesWhatItCannotDraw) {
     EXPECT_THROW(renderStill(renderer, params, progress), Cancelled);
 }
 
+TEST_F(OpenGl, ShowsMirrorsCoarserWhereMemoryIsShortAndSaysSo) {
+    const BakedExample& room = mirrorRoom();
+    const Renderer whole(room.scene, room.field);
+    EXPECT_TRUE(whole.notices().empty());
+    const StillParams params = stillOf(room.camera("mirror"));
+    Progress progress;
+    RendererOptions options;
+    options.maxMemory = whole.memory().total() / 2;
+    Renderer renderer(room.scene, room.field, options);
+    EXPECT_LE(renderer.memory().total(), whole.memory().total() / 2);
+    EXPECT_EQ(renderer.notices().size(), 1u);
+    EXPECT_LT(meanFlip(renderStill(renderer, params, progress),
+                       renderStill(room.scene, room.rays, room.field, params, progress)),
+              0.04);
+    options.maxMemory = 1000;
+    EXPECT_THROW(Renderer(room.scene, room.field, options), InputError);
+}
+
 TEST_F(OpenGl, SaysHowMuchMemoryItTakes) {
     const Renderer renderer(mirrorRoom().scene, mirrorRoom().field);
     const GpuMemory& memory = renderer.memory();

@@ -1,17 +1,17 @@
 #include "vlf/render/gl/packed_radiance.h"
 
-#include "vlf/base/error.h"
 #include "vlf/base/parallel.h"
 #include "vlf/render/gl/shaders/shared.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <span>
 
 namespace vlf {
 
 namespace {
 
-constexpr float kShearUnit = 1 / 256.0f, kMostShear = 15;  // exact in a float, times any row
 constexpr int kSums = (1 << shared::kSumBits) - 1;
 constexpr int kReds = (1 << shared::kRedBits) - 1, kBlues = (1 << shared::kBlueBits) - 1;
 constexpr int kDistances = (1 << shared::kDistanceBits) - 1;
@@ -19,73 +19,6 @@ constexpr int kDistances = (1 << shared::kDistanceBits) - 1;
 // What is darker than this beside the brightest cannot be seen in one picture with it.
 constexpr float kMostOctaves = 16;
 constexpr float kDarkest = 1e-20f;  // black, as a sum of red, green and blue
-
-/// The cells of a row that hold something, first and last.
-struct RowExtent {
-    int y, first, last;
-};
-
-std::vector<RowExtent> extents(const RadianceField& field, std::span<const TileRow> rows) {
-    std::vector<RowExtent> result;
-    for (const TileRow& row : rows)
-        for (int y = row.tileY * field.tileSize; y < (row.tileY + 1) * field.tileSize; ++y) {
-            RowExtent extent{y, std::numeric_limits<int>::max(), -1};
-            for (int x = row.tileX * field.tileSize;
-                 x < (row.tileX + row.tilesWide) * field.tileSize; ++x) {
-                const RadianceElement* e = field.element(rows, x, y);
-                if (!e || e->distance == 0) continue;
-                extent.first = std::min(extent.first, x);
-                extent.last = x;
-            }
-            if (extent.last >= 0) result.push_back(extent);
-        }
-    return result;
-}
-
-int shift(float shear, int row) {
-    return static_cast<int>(std::floor(shear * static_cast<float>(row)));
-}
-
-/// First and last column of the rectangle with a shear.
-std::pair<int, int> columns(const std::vector<RowExtent>& rows, float shear) {
-    int first = std::numeric_limits<int>::max(), last = std::numeric_limits<int>::min();
-    for (const RowExtent& row : rows) {
-        const int offset = shift(shear, row.y - rows.front().y);
-        first = std::min(first, row.first - offset);
-        last = std::max(last, row.last - offset);
-    }
-    return {first, last};
-}
-
-/// The shear of the narrowest rectangle: its width is convex in the shear but for rounding.
-float bestShear(const std::vector<RowExtent>& rows) {
-    const auto width = [&](int s) {
-        const auto [first, last] = columns(rows, static_cast<float>(s) * kShearUnit);
-        return last - first;
-    };
-    int lower = static_cast<int>(-kMostShear / kShearUnit), upper = -lower;
-    while (upper - lower > 8) {
-        const int a = lower + (upper - lower) / 3, b = upper - (upper - lower) / 3;
-        (width(a) < width(b) ? upper : lower) = width(a) < width(b) ? b : a;
-    }
-    int best = 0;
-    for (int s = lower; s <= upper; ++s)
-        if (width(s) < width(best)) best = s;
-    return static_cast<float>(best) * kShearUnit;
-}
-
-RadianceRecord layOut(const RadianceField& field, std::uint32_t direction, std::uint32_t chart) {
-    const auto rows = extents(field, field.rowsOf(direction, chart));
-    if (rows.empty()) return {};
-    RadianceRecord record;
-    record.shear = bestShear(rows);
-    const auto [first, last] = columns(rows, record.shear);
-    record.x = static_cast<std::uint16_t>(first + 0x8000);
-    record.y = static_cast<std::uint16_t>(rows.front().y);
-    record.width = static_cast<std::uint16_t>(last - first + 1);
-    record.height = static_cast<std::uint16_t>(rows.back().y - rows.front().y + 1);
-    return record;
-}
 
 float sumOf(const Vec3& rgb) {
     return rgb.x + rgb.y + rgb.z;
@@ -98,6 +31,10 @@ struct Range {
         lower = std::min(lower, v);
         upper = std::max(upper, v);
     }
+    void add(const Range& other) {
+        lower = std::min(lower, other.lower);
+        upper = std::max(upper, other.upper);
+    }
     /// Codes from 0 to `largest` over the range.
     LinearCode code(int largest) const {
         if (lower > upper) return {0, 1};
@@ -105,24 +42,76 @@ struct Range {
     }
 };
 
-void findCodes(const RadianceField& field, PackedRadiance& packed) {
+/// What elements take of each part of a code.
+struct Ranges {
     std::uint16_t longest = 1;
     Range logSum, red, blue;
-    for (const RadianceElement& e : field.elements) {
-        if (e.distance == 0) continue;
+
+    void add(const RadianceElement& e) {
+        if (e.distance == 0) return;
         longest = std::max(longest, e.distance);
         const Vec3 rgb = unpackRgb9e5(e.rgb9e5());
         const float sum = sumOf(rgb);
         logSum.add(std::log2(std::max(sum, kDarkest)));
-        if (sum <= 0) continue;
+        if (sum <= 0) return;
         red.add(rgb.x / sum);
         blue.add(rgb.z / sum);
     }
-    logSum.lower = std::max(logSum.lower, logSum.upper - kMostOctaves);
-    packed.longestDistance = field.maxDistance * static_cast<float>(longest) / 65535;
-    packed.logSum = logSum.code(kSums);
-    packed.red = red.code(kReds);
-    packed.blue = blue.code(kBlues);
+    void add(const Ranges& other) {
+        longest = std::max(longest, other.longest);
+        logSum.add(other.logSum);
+        red.add(other.red);
+        blue.add(other.blue);
+    }
+};
+
+void findCodes(const RadianceField& field, PackedRadiance& packed) {
+    constexpr std::size_t kBlock = 1 << 16;
+    std::vector<Ranges> blocks((field.elements.size() + kBlock - 1) / kBlock);
+    parallelFor(blocks.size(), [&](std::size_t b) {
+        const std::size_t end = std::min((b + 1) * kBlock, field.elements.size());
+        for (std::size_t i = b * kBlock; i < end; ++i) blocks[b].add(field.elements[i]);
+    });
+    Ranges all;
+    for (const Ranges& block : blocks) all.add(block);
+    all.logSum.lower = std::max(all.logSum.lower, all.logSum.upper - kMostOctaves);
+    packed.longestDistance = field.maxDistance * static_cast<float>(all.longest) / 65535;
+    packed.logSum = all.logSum.code(kSums);
+    packed.red = all.red.code(kReds);
+    packed.blue = all.blue.code(kBlues);
+}
+
+/// What k x k cells of the field hold, as one: the median distance, and the mean radiance of the
+/// cells that show the surface there. Distance 0 where no cell holds anything.
+struct CellMean {
+    std::uint16_t distance = 0;
+    Vec3 radiance{0};
+};
+
+CellMean meanOf(const RadianceField& field, std::span<const TileRow> rows, int x, int y, int k) {
+    if (k == 1) {
+        const RadianceElement* e = field.element(rows, x, y);
+        return e ? CellMean{e->distance, unpackRgb9e5(e->rgb9e5())} : CellMean{};
+    }
+    constexpr int kOneSurface = 65535 / 32;  // distances closer than this
+    std::vector<const RadianceElement*> filled;
+    for (int i = 0; i < k * k; ++i) {
+        const RadianceElement* e = field.element(rows, k * x + i % k, k * y + i / k);
+        if (e && e->distance > 0) filled.push_back(e);
+    }
+    if (filled.empty()) return {};
+    const auto median = filled.begin() + static_cast<std::ptrdiff_t>(filled.size() / 2);
+    std::nth_element(filled.begin(), median, filled.end(),
+                     [](const auto* a, const auto* b) { return a->distance < b->distance; });
+    CellMean mean{(*median)->distance, Vec3(0)};
+    int count = 0;
+    for (const RadianceElement* e : filled) {
+        if (std::abs(e->distance - mean.distance) > kOneSurface) continue;
+        mean.radiance += unpackRgb9e5(e->rgb9e5());
+        ++count;
+    }
+    mean.radiance /= static_cast<float>(count);
+    return mean;
 }
 
 /// Rounds up from `threshold` of the way to the next code.
@@ -139,12 +128,12 @@ float thresholdOf(int x, int y) {
 }
 
 /// What the subfield's cell (x, y) holds.
-std::uint32_t pack(const RadianceElement& e, int x, int y, const RadianceField& field,
+std::uint32_t pack(const CellMean& cell, int x, int y, const RadianceField& field,
                    const PackedRadiance& packed) {
-    const float metres = field.maxDistance * static_cast<float>(e.distance) / 65535;
+    const float metres = field.maxDistance * static_cast<float>(cell.distance) / 65535;
     const std::uint32_t distance =
         std::max(1u, encode(metres, {0, packed.longestDistance / kDistances}, kDistances));
-    const Vec3 rgb = unpackRgb9e5(e.rgb9e5());
+    const Vec3& rgb = cell.radiance;
     const float sum = std::max(sumOf(rgb), kDarkest);
     // Each part its own pattern, so that they do not err all in the same cells.
     const std::uint32_t logSum = encode(std::log2(sum), packed.logSum, kSums, thresholdOf(x, y));
@@ -155,47 +144,30 @@ std::uint32_t pack(const RadianceElement& e, int x, int y, const RadianceField& 
            blue << (kDistanceBits + kSumBits + kRedBits);
 }
 
-void fill(const RadianceField& field, std::uint32_t direction, std::uint32_t chart,
-          const RadianceRecord& record, PackedRadiance& packed) {
-    const auto rows = field.rowsOf(direction, chart);
-    for (int y = 0; y < record.height; ++y)
-        for (int x = 0; x < record.width; ++x) {
-            const int column = record.x - 0x8000 + shift(record.shear, y) + x;
-            const RadianceElement* e = field.element(rows, column, record.y + y);
-            if (!e || e->distance == 0) continue;
-            const std::size_t i =
-                std::size_t{record.firstElement} + static_cast<std::size_t>(y) * record.width + x;
-            packed.elements[i] = pack(*e, column, record.y + y, field, packed);
+void fill(const RadianceField& field, std::span<const TileRow> rows, const RadianceRecord& record,
+          int coarseness, PackedRadiance& packed) {
+    std::size_t next = record.firstElement;
+    for (int row = 0; row < record.height; ++row)
+        for (int i = 0; i < record.width; ++i, ++next) {
+            const int x = record.firstColumn(row) + i, y = record.y + row;
+            const CellMean cell = meanOf(field, rows, x, y, coarseness);
+            if (cell.distance > 0) packed.elements[next] = pack(cell, x, y, field, packed);
         }
 }
 
 }  // namespace
 
-PackedRadiance packRadiance(const RadianceField& field, const std::vector<std::uint32_t>& charts) {
+PackedRadiance packRadiance(const RadianceField& field, const std::vector<std::uint32_t>& charts,
+                            const RadianceLayout& layout) {
     PackedRadiance packed;
+    packed.elements.assign(layout.elements, 0);
     if (field.empty()) return packed;
-    const auto directions = static_cast<std::size_t>(2 * field.lines);
-    packed.records.resize(charts.size() * directions);
-    const auto chartOf = [&](std::size_t i) { return charts[i / directions]; };
-    const auto directionOf = [&](std::size_t i) {
-        return static_cast<std::uint32_t>(i % directions);
-    };
-    parallelFor(packed.records.size(), 16, [&](std::size_t i) {
-        packed.records[i] = layOut(field, directionOf(i), chartOf(i));
-    });
-    std::uint64_t next = 0;
-    for (RadianceRecord& record : packed.records) {
-        record.firstElement = static_cast<std::uint32_t>(next);
-        next += std::uint64_t{record.width} * record.height;
-    }
-    if (next > std::numeric_limits<std::uint32_t>::max())
-        throw InputError(
-            "the radiance field holds too many elements to be shown: bake it with "
-            "fewer --radiance-cells");
-    packed.elements.assign(next, 0);
     findCodes(field, packed);
-    parallelFor(packed.records.size(), 16, [&](std::size_t i) {
-        fill(field, directionOf(i), chartOf(i), packed.records[i], packed);
+    const auto directions = static_cast<std::size_t>(2 * field.lines);
+    parallelFor(layout.records.size(), 16, [&](std::size_t i) {
+        const auto direction = static_cast<std::uint32_t>(i % directions);
+        fill(field, field.rowsOf(direction, charts[i / directions]), layout.records[i],
+             layout.coarseness, packed);
     });
     return packed;
 }

@@ -69,6 +69,17 @@ TextureObject makeAtlasTexture(const IrradianceAtlas& atlas) {
     return texture;
 }
 
+/// What is left for the radiance field where other things take `others` bytes.
+RadianceLimits radianceLimits(const RendererOptions& options, std::uint64_t others) {
+    GLint most = 0;
+    glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &most);
+    RadianceLimits limits;
+    limits.elements = std::min(limits.elements, static_cast<std::uint64_t>(most));
+    if (options.maxMemory > 0)
+        limits.bytes = options.maxMemory - std::min(options.maxMemory, others);
+    return limits;
+}
+
 /// Which shader draws a batch.
 struct Variant {
     bool diffuseMap = false, emission = false, mirror = false, plain = false;
@@ -77,10 +88,10 @@ struct Variant {
 
     Defines defines() const {
         Defines d;
-        if (diffuseMap) d["DIFFUSE_MAP"] = "1";
-        if (emission) d["EMISSION"] = "1";
-        if (mirror) d["MIRROR"] = "\"radiance_field.glsl\"";
-        if (plain) d["PLAIN"] = "1";
+        if (diffuseMap) d.emplace("DIFFUSE_MAP", "1");
+        if (emission) d.emplace("EMISSION", "1");
+        if (mirror) d.emplace("MIRROR", "\"radiance_field.glsl\"");
+        if (plain) d.emplace("PLAIN", "1");
         return d;
     }
 };
@@ -98,13 +109,13 @@ struct Renderer::Impl {
                 "the light field holds no radiance of mirrors to look up: bake with radiance "
                 "directions");
         loadGeometry(room);
-        loadRadiance(field, packRadiance(field.radiance, room.mirrorCharts));
         atlas = makeAtlasTexture(field.atlas);
         updateIrradiance(field.atlas);
         viewBuffer = makeBuffer(nullptr, sizeof(ViewData), GL_DYNAMIC_STORAGE_BIT);
         nearest = kNearest * field.frame.radius;
         memory.atlas = 4 * field.atlas.irradiance.size();
         memory.textures = textures.bytes();
+        loadRadiance(field, room.mirrorCharts, options);
     }
 
     void loadGeometry(const RoomGeometry& room) {
@@ -117,27 +128,34 @@ struct Renderer::Impl {
         memory.geometry = room.vertices.size() * sizeof(RoomVertex) + 4 * room.indices.size();
     }
 
-    void loadRadiance(const LightField& field, const PackedRadiance& packed) {
-        requireLimit(packed.elements.size(), GL_MAX_TEXTURE_BUFFER_SIZE,
-                     "the number of elements of the radiance field");
-        requireLimit(packed.records.size(), GL_MAX_TEXTURE_BUFFER_SIZE,
+    void loadRadiance(const LightField& field, const std::vector<std::uint32_t>& charts,
+                      const RendererOptions& options) {
+        const std::uint64_t others = memory.total();
+        const RadianceLayout layout =
+            layOutWithin(radianceLimits(options, others), field.radiance, charts);
+        const PackedRadiance packed = packRadiance(field.radiance, charts, layout);
+        requireLimit(layout.records.size(), GL_MAX_TEXTURE_BUFFER_SIZE,
                      "the number of mirrors times directions");
         elements = makeBuffer(packed.elements.data(), 4 * packed.elements.size());
-        records = makeBuffer(packed.records.data(), sizeof(RadianceRecord) * packed.records.size());
+        records = makeBuffer(layout.records.data(), sizeof(RadianceRecord) * layout.records.size());
         elementTexture = makeBufferTexture(elements, GL_R32UI);
         recordTexture = makeBufferTexture(records, GL_RGBA32UI);
+        if (layout.coarseness > 1)
+            notices.push_back(
+                "mirrors are shown with cells of " + std::to_string(layout.coarseness) + " x " +
+                std::to_string(layout.coarseness) +
+                " made one: all of the radiance field is too much for the GPU's memory");
         const RadianceField& r = field.radiance;
         const float diameter = 2 * field.frame.radius;
-        viewData.fieldFrame = Vec4(field.frame.centre, static_cast<float>(r.cells - 1) / diameter);
-        viewData.field = {std::sqrt(0.5f * static_cast<float>(r.lines - 1)), r.lines,
-                          0.5f * static_cast<float>(r.cells - 1),
-                          kTolerance * diameter / static_cast<float>(std::max(r.cells, 1))};
+        const float cells = static_cast<float>(r.cells - 1) / static_cast<float>(layout.coarseness);
+        viewData.fieldFrame = Vec4(field.frame.centre, cells / diameter);
+        viewData.field = {std::sqrt(0.5f * static_cast<float>(r.lines - 1)), r.lines, 0.5f * cells,
+                          kTolerance * diameter / std::max(cells, 1.0f)};
         viewData.elementCode = {packed.longestDistance, packed.logSum.first, packed.logSum.step, 0};
         viewData.shareCode = {packed.red.first, packed.red.step, packed.blue.first,
                               packed.blue.step};
-        memory.radiance =
-            4 * packed.elements.size() + sizeof(RadianceRecord) * packed.records.size();
-        memory.radianceElements = packed.elements.size();
+        memory.radiance = layout.bytes();
+        memory.radianceElements = layout.elements;
     }
 
     void updateIrradiance(const IrradianceAtlas& light) {
@@ -228,6 +246,7 @@ struct Renderer::Impl {
     TextureObject atlas, elementTexture, recordTexture;
     ViewData viewData{};
     GpuMemory memory;
+    std::vector<std::string> notices;
     float nearest = 0;
 };
 
@@ -247,6 +266,10 @@ void Renderer::updateIrradiance(const IrradianceAtlas& atlas) {
 
 float Renderer::nearest() const {
     return impl_->nearest;
+}
+
+const std::vector<std::string>& Renderer::notices() const {
+    return impl_->notices;
 }
 
 const GpuMemory& Renderer::memory() const {

@@ -12,11 +12,13 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace vlf {
 
 struct RendererOptions {
-    std::string shaderFolder;  ///< files here are used in place of the built-in shaders
+    std::string shaderFolder;     ///< files here are used in place of the built-in shaders
+    std::uint64_t maxMemory = 0;  ///< bytes on the GPU, 0: no limit; see Renderer::notices
 };
 
 struct RenderSettings {
@@ -41,8 +43,8 @@ struct GpuMemory {
 class Renderer {
   public:
     /// Copies what it needs to the GPU. Throws InputError if the field is not of this scene, it has
-    /// mirrors but no radiance of them, the atlas or radiance field exceed what the GPU can hold,
-    /// or a shader of options.shaderFolder is at fault.
+    /// mirrors but no radiance of them, the atlas or, at its coarsest, the radiance field exceed
+    /// what the GPU or options.maxMemory can hold, or a shader of options.shaderFolder is at fault.
     Renderer(const Scene& scene, const LightField& field, const RendererOptions& options = {});
     ~Renderer();
     Renderer(Renderer&&) noexcept;
@@ -55,6 +57,9 @@ class Renderer {
     void updateIrradiance(const IrradianceAtlas& atlas);
 
     const GpuMemory& memory() const;
+
+    /// What is shown less finely than the field has it, for want of memory: sentences for the user.
+    const std::vector<std::string>& notices() const;
 
     /// Distance of a near plane that suits the room, metres.
     float nearest() const;
