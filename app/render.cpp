@@ -3,6 +3,7 @@
 #include "camera_options.h"
 #include "commands.h"
 #include "console.h"
+#include "gpu_options.h"
 #include "picture_output.h"
 
 #include "vlf/base/error.h"
@@ -32,6 +33,7 @@ enum class Backend { cpu, gl };
 struct Options {
     std::string field;
     Backend backend = Backend::cpu;
+    RendererOptions gpu;
     CameraOptions camera;
     PictureOptions picture;
     std::string json;
@@ -183,7 +185,8 @@ void renderByCpu(const Options& options, const Globals& globals, const BakedRoom
 GpuMemory renderByOpenGl(const Options& options, const Globals& globals, const BakedRoom& room,
                          std::vector<Still>& stills) {
     const gl::HeadlessContext context;
-    Renderer renderer(room.scene, room.field);
+    Renderer renderer(room.scene, room.field, options.gpu);
+    printNotices(globals.quiet, renderer);
     const auto render = [&](const StillParams& params, Progress& progress, StillReport& report) {
         return renderStill(renderer, params, progress, &report);
     };
@@ -262,6 +265,7 @@ void addRender(CLI::App& app, const Globals& globals) {
                      "Who draws: the CPU in every mode, or OpenGL, without a window, mode field")
         ->transform(CLI::CheckedTransformer(kBackendNames))
         ->option_text("cpu|gl [cpu]");
+    addGpuOptions(*command, options->gpu);
     addModeOptions(*command, options->still);
     addDiagramOptions(*command, *options);
     addPictureOptions(*command, options->picture);

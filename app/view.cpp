@@ -3,6 +3,7 @@
 #include "camera_options.h"
 #include "commands.h"
 #include "console.h"
+#include "gpu_options.h"
 
 #include "vlf/base/error.h"
 #include "vlf/display/camera_pose.h"
@@ -43,6 +44,7 @@ constexpr const char* kKeys =
 struct Options {
     std::string field;
     CameraOptions camera;
+    RendererOptions gpu;
 };
 
 /// GLFW as long as it is needed. Throws Error with what GLFW says.
@@ -202,7 +204,8 @@ void run(const Options& options, const Globals& globals) {
     const Camera start =
         chooseCamera(options.camera, room.scene.cameras, defaultCamera(room.scene));
     const Window window(options.camera.width, options.camera.height, options.field);
-    Renderer renderer(room.scene, room.field);
+    Renderer renderer(room.scene, room.field, options.gpu);
+    printNotices(globals.quiet, renderer);
     Walk walk(window, room, start);
     if (!globals.quiet) fmt::print("{}\n", kKeys);
     TitleClock clock;
@@ -232,6 +235,7 @@ void addView(CLI::App& app, const Globals& globals) {
         ->required()
         ->type_name("FIELD");
     addCameraOptions(*command, options->camera);
+    addGpuOptions(*command, options->gpu);
     command->footer(std::string("Keys:\n") + kKeys +
                     "\n\nExamples:\n"
                     "  vlf view room.vlf\n"

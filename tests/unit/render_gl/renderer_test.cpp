@@ -6,6 +6,7 @@
 #include "vlf/image/srgb.h"
 #include "vlf/image/tone_map.h"
 #include "vlf/render/gl/gl_object.h"
+#include "vlf/render/gl/gpu_memory.h"
 #include "vlf/render/gl/headless_context.h"
 #include "vlf/render/gl/read_framebuffer.h"
 #include "vlf/render/gl/still.h"
@@ -223,6 +224,34 @@ TEST_F(OpenGl, ShowsMirrorsCoarserWhereMemoryIsShortAndSaysSo) {
               0.04);
     options.maxMemory = 1000;
     EXPECT_THROW(Renderer(room.scene, room.field, options), InputError);
+}
+
+TEST_F(OpenGl, ShowsAnAtlasLargerThanATextureShrunkAndSaysSo) {
+    const BakedExample room = smallRoom("cornell");
+    RendererOptions options;
+    options.maxTextureSize = std::max(room.field.atlas.width, room.field.atlas.height) - 1;
+    Renderer renderer(room.scene, room.field, options);
+    EXPECT_EQ(renderer.notices().size(), 1u);
+    const StillParams params = stillOf(room.camera("front"));
+    Progress progress;
+    EXPECT_LT(meanFlip(renderStill(renderer, params, progress),
+                       renderStill(room.scene, room.rays, room.field, params, progress)),
+              0.05);
+    options.maxTextureSize = 4;
+    EXPECT_THROW(Renderer(room.scene, room.field, options), InputError);
+}
+
+TEST_F(OpenGl, TakesTheMemoryThatIsToldWithoutIt) {
+    const BakedExample office = smallRoom("office");
+    for (const BakedExample* room : {&office, &mirrorRoom()}) {
+        const GpuMemory told = gpuMemoryOf(room->scene, room->field);
+        const GpuMemory taken = Renderer(room->scene, room->field).memory();
+        EXPECT_EQ(told.geometry, taken.geometry);
+        EXPECT_EQ(told.atlas, taken.atlas);
+        EXPECT_EQ(told.textures, taken.textures);
+        EXPECT_EQ(told.radiance, taken.radiance);
+        EXPECT_EQ(told.radianceElements, taken.radianceElements);
+    }
 }
 
 TEST_F(OpenGl, SaysHowMuchMemoryItTakes) {

@@ -1,8 +1,10 @@
 #include "vlf/render/gl/renderer.h"
 
 #include "vlf/base/error.h"
+#include "vlf/render/gl/atlas_fit.h"
 #include "vlf/render/gl/gl_object.h"
 #include "vlf/render/gl/gl_state.h"
+#include "vlf/render/gl/gpu_memory.h"
 #include "vlf/render/gl/packed_radiance.h"
 #include "vlf/render/gl/room_geometry.h"
 #include "vlf/render/gl/scene_textures.h"
@@ -57,9 +59,14 @@ void requireLimit(std::uint64_t needed, GLenum limit, const std::string& what) {
                          std::to_string(most) + "); bake it coarser, or render with --backend cpu");
 }
 
+std::uint32_t textureSide(const RendererOptions& options) {
+    GLint most = 0;
+    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
+    const auto side = static_cast<std::uint32_t>(most);
+    return options.maxTextureSize > 0 ? std::min(side, options.maxTextureSize) : side;
+}
+
 TextureObject makeAtlasTexture(const IrradianceAtlas& atlas) {
-    requireLimit(std::max(atlas.width, atlas.height), GL_MAX_TEXTURE_SIZE,
-                 "the side of the irradiance atlas");
     TextureObject texture = makeTexture(GL_TEXTURE_2D);
     glTextureStorage2D(texture.id(), 1, GL_RGB9_E5, static_cast<GLsizei>(std::max(1u, atlas.width)),
                        static_cast<GLsizei>(std::max(1u, atlas.height)));
@@ -100,21 +107,28 @@ struct Variant {
 
 struct Renderer::Impl {
     Impl(const Scene& scene, const LightField& field, const RendererOptions& options)
-        : shaders(options.shaderFolder), textures(scene), materials(scene.materials) {
+        : shaders(options.shaderFolder),
+          textures(scene),
+          materials(scene.materials),
+          fit(field, textureSide(options)) {
         if (field.triangleCharts.size() != scene.triangles.size())
             throw InputError("the light field belongs to another scene: bake this one");
-        const RoomGeometry room = makeRoomGeometry(scene, field);
+        const RoomGeometry room = makeRoomGeometry(scene, fit.layout());
         if (!room.mirrorCharts.empty() && field.radiance.empty())
             throw InputError(
                 "the light field holds no radiance of mirrors to look up: bake with radiance "
                 "directions");
         loadGeometry(room);
-        atlas = makeAtlasTexture(field.atlas);
+        atlas = makeAtlasTexture(fit.layout().atlas);
+        if (fit.factor() > 1)
+            notices.push_back("light is shown with " + std::to_string(fit.factor()) + " x " +
+                              std::to_string(fit.factor()) +
+                              " texels made one: the irradiance atlas is larger than a texture of "
+                              "this GPU may be");
         updateIrradiance(field.atlas);
         viewBuffer = makeBuffer(nullptr, sizeof(ViewData), GL_DYNAMIC_STORAGE_BIT);
         nearest = kNearest * field.frame.radius;
-        memory.atlas = 4 * field.atlas.irradiance.size();
-        memory.textures = textures.bytes();
+        memory.textures = textureBytes(scene);
         loadRadiance(field, room.mirrorCharts, options);
     }
 
@@ -125,7 +139,7 @@ struct Renderer::Impl {
         vertexArray = makeRoomVertexArray(vertices, indices);
         for (const RoomBatch& batch : batches)
             materialBuffers.push_back(makeBuffer(&batch.data, sizeof batch.data));
-        memory.geometry = room.vertices.size() * sizeof(RoomVertex) + 4 * room.indices.size();
+        memory.geometry = bytesOf(room);
     }
 
     void loadRadiance(const LightField& field, const std::vector<std::uint32_t>& charts,
@@ -158,13 +172,16 @@ struct Renderer::Impl {
         memory.radianceElements = layout.elements;
     }
 
-    void updateIrradiance(const IrradianceAtlas& light) {
+    void updateIrradiance(const IrradianceAtlas& whole) {
+        const IrradianceAtlas fitted = fit.unchanged() ? IrradianceAtlas{} : fit.fit(whole);
+        const IrradianceAtlas& light = fit.unchanged() ? whole : fitted;
         std::vector<std::uint32_t> packed(light.irradiance.size());
         std::transform(light.irradiance.begin(), light.irradiance.end(), packed.begin(),
                        packRgb9e5);
         glTextureSubImage2D(atlas.id(), 0, 0, 0, static_cast<GLsizei>(light.width),
                             static_cast<GLsizei>(light.height), GL_RGB, GL_UNSIGNED_INT_5_9_9_9_REV,
                             packed.data());
+        memory.atlas = 4 * packed.size();
     }
 
     GLuint program(const Variant& variant) {
@@ -243,6 +260,7 @@ struct Renderer::Impl {
     Buffer vertices, indices, elements, records, viewBuffer;
     std::vector<Buffer> materialBuffers;  ///< of each batch
     VertexArray vertexArray;
+    AtlasFit fit;
     TextureObject atlas, elementTexture, recordTexture;
     ViewData viewData{};
     GpuMemory memory;
