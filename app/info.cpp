@@ -236,12 +236,11 @@ void printGpuMemory(const GpuMemory& memory) {
     fmt::print("\nmemory of the GPU\n");
     printLine("geometry", readableBytes(memory.geometry));
     printLine("atlas", readableBytes(memory.atlas));
-    printLine("radiance",
-              memory.radianceElements == 0
-                  ? std::string("none")
-                  : fmt::format("{}, {:.2f} bytes each of {} elements",
-                                readableBytes(memory.radiance), bytesPerGpuElement(memory),
-                                memory.radianceElements));
+    printLine("radiance", memory.radianceElements == 0
+                              ? std::string("none")
+                              : fmt::format("{}, {:.2f} bytes each of {} elements",
+                                            readableBytes(memory.radiance),
+                                            bytesPerGpuElement(memory), memory.radianceElements));
     printLine("textures", readableBytes(memory.textures));
     printLine("total", readableBytes(memory.total()));
 }

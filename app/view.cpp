@@ -141,8 +141,8 @@ class Walk {
         const Vec2 turn = kRadiansPerPixel * (at - pointer_);
         if (held) {
             pose_.yaw -= turn.x;
-            pose_.pitch = std::clamp(pose_.pitch - turn.y, -CameraPose::kMostPitch,
-                                     CameraPose::kMostPitch);
+            pose_.pitch =
+                std::clamp(pose_.pitch - turn.y, -CameraPose::kMostPitch, CameraPose::kMostPitch);
         }
         pointer_ = at;
     }

@@ -187,7 +187,7 @@ class Pipeline(Case):
         self.run_vlf(*render, "--gpu-memory", half, says=["warning: mirrors are shown"])
         taken = self.json("render.json")["gpuMemory"]
         self.assertLessEqual(taken["radiance"], half)
-        self.run_vlf(*render, "--gpu-memory", "2M", code=BAD_INPUT, says=["fewer --radiance-cells"])
+        self.run_vlf(*render, "--gpu-memory", "1k", code=BAD_INPUT, says=["fewer --radiance-cells"])
 
     def test_opengl_says_which_mode_it_draws(self):
         self.bake("room.vlf")

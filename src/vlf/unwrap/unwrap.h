@@ -3,9 +3,9 @@
 // atlas.
 
 #include "vlf/field/chart.h"
+#include "vlf/field/pack_atlas.h"
 #include "vlf/scene/scene.h"
 #include "vlf/trace/ray_scene.h"
-#include "vlf/field/pack_atlas.h"
 #include "vlf/unwrap/texel_points.h"
 
 #include <cstdint>

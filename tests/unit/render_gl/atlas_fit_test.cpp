@@ -57,7 +57,7 @@ TEST(AtlasFit, ShrinksAnAtlasThatIsTooLarge) {
     const auto most = std::max(field.atlas.width, field.atlas.height) * 2 / 3;
     const AtlasFit fit(field, most);
     const LightField layout = fit.layout();
-    EXPECT_EQ(fit.factor(), 2u);
+    EXPECT_GT(fit.factor(), 1u);
     EXPECT_LE(std::max(layout.atlas.width, layout.atlas.height), most);
     IrradianceAtlas even = field.atlas;
     std::fill(even.irradiance.begin(), even.irradiance.end(), Vec3(0.25f, 0.5f, 1));

@@ -226,6 +226,21 @@ TEST_F(OpenGl, ShowsMirrorsCoarserWhereMemoryIsShortAndSaysSo) {
     EXPECT_THROW(Renderer(room.scene, room.field, options), InputError);
 }
 
+TEST_F(OpenGl, ShowsMirrorsTheSameWithFourElementsATexelOfASmallBufferTexture) {
+    const BakedExample& room = mirrorRoom();
+    Renderer whole(room.scene, room.field);
+    RendererOptions options;
+    options.maxBufferTexels = whole.memory().radianceElements / 2;
+    Renderer renderer(room.scene, room.field, options);
+    EXPECT_TRUE(renderer.notices().empty());
+    const StillParams params = stillOf(room.camera("mirror"));
+    Progress progress;
+    EXPECT_EQ(
+        meanFlip(renderStill(renderer, params, progress), renderStill(whole, params, progress)), 0);
+    options.maxBufferTexels = whole.memory().radianceElements / 8;
+    EXPECT_EQ(Renderer(room.scene, room.field, options).notices().size(), 1u);
+}
+
 TEST_F(OpenGl, ShowsAnAtlasLargerThanATextureShrunkAndSaysSo) {
     const BakedExample room = smallRoom("cornell");
     RendererOptions options;

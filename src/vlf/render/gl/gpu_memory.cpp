@@ -11,7 +11,8 @@ std::uint64_t bytesOf(const RoomGeometry& room) {
 std::uint64_t textureBytes(const Scene& scene) {
     std::uint64_t bytes = 0;
     for (const Texture& t : scene.textures)
-        bytes += static_cast<std::uint64_t>(t.width) * t.height * (t.linear.empty() ? 4 : 6) * 4 / 3;
+        bytes +=
+            static_cast<std::uint64_t>(t.width) * t.height * (t.linear.empty() ? 4 : 6) * 4 / 3;
     return bytes;
 }
 

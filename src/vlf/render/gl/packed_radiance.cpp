@@ -160,7 +160,7 @@ void fill(const RadianceField& field, std::span<const TileRow> rows, const Radia
 PackedRadiance packRadiance(const RadianceField& field, const std::vector<std::uint32_t>& charts,
                             const RadianceLayout& layout) {
     PackedRadiance packed;
-    packed.elements.assign(layout.elements, 0);
+    packed.elements.assign((layout.elements + 3) / 4 * 4, 0);
     if (field.empty()) return packed;
     findCodes(field, packed);
     const auto directions = static_cast<std::size_t>(2 * field.lines);

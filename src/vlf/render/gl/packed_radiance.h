@@ -16,10 +16,10 @@ struct LinearCode {
 };
 
 struct PackedRadiance {
-    std::vector<std::uint32_t> elements;
-    float longestDistance = 0;  ///< metres
-    LinearCode logSum;          ///< log2 of the sum of red, green and blue
-    LinearCode red, blue;       ///< their shares in the sum
+    std::vector<std::uint32_t> elements;  ///< filled up to a multiple of four
+    float longestDistance = 0;            ///< metres
+    LinearCode logSum;                    ///< log2 of the sum of red, green and blue
+    LinearCode red, blue;                 ///< their shares in the sum
 };
 
 /// `layout` is of this field and these charts.

@@ -76,12 +76,17 @@ TextureObject makeAtlasTexture(const IrradianceAtlas& atlas) {
     return texture;
 }
 
-/// What is left for the radiance field where other things take `others` bytes.
-RadianceLimits radianceLimits(const RendererOptions& options, std::uint64_t others) {
+std::uint64_t bufferTexels(const RendererOptions& options) {
     GLint most = 0;
     glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &most);
+    const auto texels = static_cast<std::uint64_t>(most);
+    return options.maxBufferTexels > 0 ? std::min(texels, options.maxBufferTexels) : texels;
+}
+
+/// What is left for the radiance field where other things take `others` bytes.
+RadianceLimits radianceLimits(const RendererOptions& options, std::uint64_t others) {
     RadianceLimits limits;
-    limits.elements = std::min(limits.elements, static_cast<std::uint64_t>(most));
+    limits.elements = std::min(limits.elements, 4 * bufferTexels(options));
     if (options.maxMemory > 0)
         limits.bytes = options.maxMemory - std::min(options.maxMemory, others);
     return limits;
@@ -90,6 +95,7 @@ RadianceLimits radianceLimits(const RendererOptions& options, std::uint64_t othe
 /// Which shader draws a batch.
 struct Variant {
     bool diffuseMap = false, emission = false, mirror = false, plain = false;
+    bool fourATexel = false;  ///< elements of the radiance field
 
     auto operator<=>(const Variant&) const = default;
 
@@ -99,6 +105,7 @@ struct Variant {
         if (emission) d.emplace("EMISSION", "1");
         if (mirror) d.emplace("MIRROR", "\"radiance_field.glsl\"");
         if (plain) d.emplace("PLAIN", "1");
+        if (fourATexel) d.emplace("FOUR_A_TEXEL", "1");
         return d;
     }
 };
@@ -152,7 +159,8 @@ struct Renderer::Impl {
                      "the number of mirrors times directions");
         elements = makeBuffer(packed.elements.data(), 4 * packed.elements.size());
         records = makeBuffer(layout.records.data(), sizeof(RadianceRecord) * layout.records.size());
-        elementTexture = makeBufferTexture(elements, GL_R32UI);
+        fourATexel = layout.elements > bufferTexels(options);
+        elementTexture = makeBufferTexture(elements, fourATexel ? GL_RGBA32UI : GL_R32UI);
         recordTexture = makeBufferTexture(records, GL_RGBA32UI);
         if (layout.coarseness > 1)
             notices.push_back(
@@ -195,6 +203,7 @@ struct Renderer::Impl {
         v.diffuseMap = materials[batch.material].diffuseTexture >= 0;
         v.emission = maxComponent(Vec3(batch.data.emission)) > 0;
         v.mirror = batch.mirror;
+        v.fourATexel = batch.mirror && fourATexel;
         v.plain = batch.mirror && settings.lookup == LookupKind::plain;
         return v;
     }
@@ -265,6 +274,7 @@ struct Renderer::Impl {
     ViewData viewData{};
     GpuMemory memory;
     std::vector<std::string> notices;
+    bool fourATexel = false;
     float nearest = 0;
 };
 

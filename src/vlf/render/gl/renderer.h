@@ -17,9 +17,10 @@
 namespace vlf {
 
 struct RendererOptions {
-    std::string shaderFolder;     ///< files here are used in place of the built-in shaders
-    std::uint64_t maxMemory = 0;  ///< bytes on the GPU, 0: no limit; see Renderer::notices
-    std::uint32_t maxTextureSize = 0;  ///< texels along a side, 0: as the GPU allows
+    std::string shaderFolder;           ///< files here are used in place of the built-in shaders
+    std::uint64_t maxMemory = 0;        ///< bytes on the GPU, 0: no limit; see Renderer::notices
+    std::uint32_t maxTextureSize = 0;   ///< texels along a side, 0: as the GPU allows
+    std::uint64_t maxBufferTexels = 0;  ///< texels of a buffer texture, 0: as the GPU allows
 };
 
 struct RenderSettings {

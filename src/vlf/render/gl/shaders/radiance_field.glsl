@@ -22,7 +22,12 @@ struct Sight {
 uint elementOf(uvec4 record, int row, int x) {
     uvec2 size = uvec2(record.z & 0xffffu, record.z >> 16);
     bool inside = uint(x) < size.x && uint(row) < size.y;
-    uint element = texelFetch(elements, inside ? int(record.x) + row * int(size.x) + x : 0).r;
+    uint index = inside ? record.x + uint(row) * size.x + uint(x) : 0u;
+#ifdef FOUR_A_TEXEL
+    uint element = texelFetch(elements, int(index >> 2))[index & 3u];
+#else
+    uint element = texelFetch(elements, int(index)).r;
+#endif
     return inside ? element : 0u;
 }
 
