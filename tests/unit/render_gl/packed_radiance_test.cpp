@@ -138,7 +138,7 @@ TEST(PackedRadiance, MadeCoarserCoversTheSameCellsAndKeepsTheMean) {
             }
     }
     ASSERT_GT(cells, 10000);
-    EXPECT_NEAR(coarseSum / sum, 1, 0.02);
+    EXPECT_NEAR(coarseSum / sum, 1, 0.002);
 }
 
 TEST(PackedRadiance, IsMadeAsFineAsTheLimitsAllow) {

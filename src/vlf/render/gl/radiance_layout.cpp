@@ -29,12 +29,17 @@ std::vector<RowExtent> extents(const RadianceField& field, std::span<const TileR
     for (const TileRow& row : rows)
         for (int y = 0; y < m; ++y) {
             RowExtent extent{(row.tileY * m + y) / coarseness, std::numeric_limits<int>::max(), -1};
-            for (int x = 0; x < row.tilesWide * m; ++x) {
-                const std::uint64_t tile = static_cast<std::uint64_t>(x / m) * field.tileElements();
-                const auto inTile = static_cast<std::uint64_t>(y * m + x % m);
-                if (field.elements[row.firstElement + tile + inTile].distance == 0) continue;
-                extent.first = std::min(extent.first, (row.tileX * m + x) / coarseness);
-                extent.last = (row.tileX * m + x) / coarseness;
+            for (int tile = 0; tile < row.tilesWide; ++tile) {
+                const RadianceElement* e =
+                    &field.elements[row.firstElement +
+                                    static_cast<std::uint64_t>(tile) * field.tileElements() +
+                                    static_cast<std::uint64_t>(y * m)];
+                const int firstX = (row.tileX + tile) * m;
+                for (int x = 0; x < m; ++x) {
+                    if (e[x].distance == 0) continue;
+                    extent.first = std::min(extent.first, (firstX + x) / coarseness);
+                    extent.last = (firstX + x) / coarseness;
+                }
             }
             if (extent.last < 0) continue;
             if (result.empty() || result.back().y != extent.y)
