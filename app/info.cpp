@@ -4,9 +4,11 @@
 #include "picture_output.h"
 
 #include "vlf/io/field_file.h"
+#include "vlf/render/gl/gpu_memory.h"
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include <fmt/format.h>
@@ -20,6 +22,7 @@ using Json = nlohmann::ordered_json;
 
 struct Options {
     std::string file, json;
+    bool gpu = false;
 };
 
 Json toJson(const Vec3& v) {
@@ -93,6 +96,21 @@ Json toJson(const BakeRecord& r) {
               {"absorbed", toJson(r.energy.absorbed)},
               {"unshot", toJson(r.energy.unshot)},
               {"escaped", toJson(r.energy.escaped)}}}};
+}
+
+double bytesPerGpuElement(const GpuMemory& memory) {
+    if (memory.radianceElements == 0) return 0;
+    return static_cast<double>(memory.radiance) / static_cast<double>(memory.radianceElements);
+}
+
+Json toJson(const GpuMemory& memory) {
+    return {{"geometry", memory.geometry},
+            {"atlas", memory.atlas},
+            {"radiance", memory.radiance},
+            {"textures", memory.textures},
+            {"total", memory.total()},
+            {"radianceElements", memory.radianceElements},
+            {"bytesPerElement", bytesPerGpuElement(memory)}};
 }
 
 Json toJson(const Options& options, const FieldFileInfo& info) {
@@ -214,6 +232,19 @@ void printChunks(const FieldFileInfo& info) {
     row(totalOf(info));
 }
 
+void printGpuMemory(const GpuMemory& memory) {
+    fmt::print("\nmemory of the GPU\n");
+    printLine("geometry", readableBytes(memory.geometry));
+    printLine("atlas", readableBytes(memory.atlas));
+    printLine("radiance", memory.radianceElements == 0
+                              ? std::string("none")
+                              : fmt::format("{}, {:.2f} bytes each of {} elements",
+                                            readableBytes(memory.radiance),
+                                            bytesPerGpuElement(memory), memory.radianceElements));
+    printLine("textures", readableBytes(memory.textures));
+    printLine("total", readableBytes(memory.total()));
+}
+
 void printReport(const Options& options, const FieldFileInfo& info) {
     fmt::print("{}: field file of format version {}, {}\n", options.file, info.formatVersion,
                readableBytes(info.fileBytes));
@@ -224,15 +255,24 @@ void printReport(const Options& options, const FieldFileInfo& info) {
     printChunks(info);
 }
 
+std::optional<GpuMemory> gpuMemory(const Options& options) {
+    if (!options.gpu) return std::nullopt;
+    const BakedRoom room = readField(options.file);
+    return gpuMemoryOf(room.scene, room.field);
+}
+
 void run(const Options& options) {
     const FieldFileInfo info = readFieldInfo(options.file);
+    const std::optional<GpuMemory> memory = gpuMemory(options);
+    Json report = toJson(options, info);
+    if (memory) report["gpuMemory"] = toJson(*memory);
     if (options.json == "-") {
-        fmt::print("{}\n",
-                   toJson(options, info).dump(2, ' ', false, Json::error_handler_t::replace));
+        fmt::print("{}\n", report.dump(2, ' ', false, Json::error_handler_t::replace));
         return;
     }
-    if (!options.json.empty()) writeJson(options.json, toJson(options, info));
+    if (!options.json.empty()) writeJson(options.json, report);
     printReport(options, info);
+    if (memory) printGpuMemory(*memory);
 }
 
 }  // namespace
@@ -243,8 +283,11 @@ void addInfo(CLI::App& app, const Globals&) {
     command->add_option("file", options->file, "Field file (.vlf)")->required();
     command->add_option("--json", options->json,
                         "Write everything to this file, or to standard output alone (-)");
+    command->add_flag("--gpu", options->gpu,
+                      "Tell, too, what the room takes of the GPU's memory: reads all of the file");
     command->footer(
-        "Reads the table of chunks and the small chunks only, however large the file.\n\n"
+        "Without --gpu reads the table of chunks and the small chunks only, however large the "
+        "file.\n\n"
         "Examples:\n"
         "  vlf info room.vlf\n"
         "  vlf info room.vlf --json - | jq .bake");

@@ -126,7 +126,7 @@ void run(const CLI::App& command, const RenderOptions& options, const Globals& g
     requireWritableOutputs({options.json});
     if (!options.film.moves()) requireWritableOutputs({options.picture.path});
     const BakedRoom room = readField(options.field);
-    RoomRenderer renderer(options.backend, room);
+    RoomRenderer renderer(options, room, globals.quiet);
     nlohmann::ordered_json report = toJson(options);
     if (options.film.moves()) {
         report["film"] = renderFilm(options, globals, renderer, room.scene.cameras);

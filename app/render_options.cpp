@@ -1,6 +1,7 @@
 #include "render_options.h"
 
 #include "frame_names.h"
+#include "gpu_options.h"
 
 #include "vlf/display/frame_log.h"
 
@@ -177,6 +178,7 @@ void addRenderOptions(CLI::App& command, RenderOptions& options) {
         .add_option("--backend", options.backend, "Who draws: the CPU, or OpenGL without a window")
         ->transform(CLI::CheckedTransformer(kBackendNames))
         ->option_text("cpu|gl [cpu]");
+    addGpuOptions(command, options.gpu);
     addModeOptions(command, options.still);
     addDiagramOptions(command, options);
     addPictureOptions(command, options.picture);

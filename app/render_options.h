@@ -5,7 +5,7 @@
 #include "picture_output.h"
 
 #include "vlf/display/stereo.h"
-#include "vlf/render/cpu/still.h"
+#include "vlf/render/gl/renderer.h"
 
 #include <map>
 #include <optional>
@@ -47,6 +47,7 @@ struct FilmOptions {
 struct RenderOptions {
     std::string field;
     Backend backend = Backend::cpu;
+    RendererOptions gpu;  ///< of backend gl
     CameraOptions camera;
     PictureOptions picture;
     StereoOptions stereo;

@@ -1,15 +1,19 @@
 #include "room_renderer.h"
 
+#include "gpu_options.h"
+
 #include "vlf/render/gl/still.h"
 
 namespace vlf::app {
 
-RoomRenderer::RoomRenderer(Backend backend, const BakedRoom& room) : room_(room) {
-    if (backend == Backend::cpu) {
+RoomRenderer::RoomRenderer(const RenderOptions& options, const BakedRoom& room, bool quiet)
+    : room_(room) {
+    if (options.backend == Backend::cpu) {
         rays_.emplace(room.scene);
     } else {
         context_.emplace();
-        renderer_.emplace(room.scene, room.field);
+        renderer_.emplace(room.scene, room.field, options.gpu);
+        printNotices(quiet, *renderer_);
     }
 }
 

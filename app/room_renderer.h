@@ -15,7 +15,7 @@ namespace vlf::app {
 class RoomRenderer {
   public:
     /// `room` must outlive it. Throws as Renderer and HeadlessContext.
-    RoomRenderer(Backend backend, const BakedRoom& room);
+    RoomRenderer(const RenderOptions& options, const BakedRoom& room, bool quiet);
 
     /// As renderStill.
     Image render(const StillParams& params, Progress& progress, StillReport& report);

@@ -4,6 +4,7 @@
 #include "camera_options.h"
 #include "commands.h"
 #include "console.h"
+#include "gpu_options.h"
 #include "picture_output.h"
 #include "viewer/display_modes.h"
 #include "viewer/key_bindings.h"
@@ -197,6 +198,7 @@ void addView(CLI::App& app, const Globals& globals) {
         ->type_name("FILE...");
     addCameraOptions(*command, options->camera);
     addWindowOptions(*command, *options);
+    addGpuOptions(*command, options->viewer.renderer);
     command->add_option("--mode", options->mode, "What to show first; M shows the next")
         ->check(CLI::IsMember(modeNames()))
         ->capture_default_str();

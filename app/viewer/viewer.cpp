@@ -1,6 +1,7 @@
 #include "viewer.h"
 
 #include "console.h"
+#include "gpu_options.h"
 #include "key_bindings.h"
 #include "numbered_file.h"
 #include "overlay.h"
@@ -85,6 +86,7 @@ Viewer::Viewer(std::shared_ptr<const BakedRoom> room, const ViewerOptions& optio
       shaderWatch_(options.renderer.shaderFolder) {
     RoomPreferences here = memory_.room();
     if (options.startChosen) here.pose.reset();
+    printNotices(options.quiet, shownRoom_->renderer());
     walk_.recall(memory_.preferences(), here);
     walk_.setMode(options.mode);
     if (session_.pose()) walk_.navigator().setMovement(Movement::fly);

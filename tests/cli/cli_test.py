@@ -367,6 +367,24 @@ class Pipeline(Case):
             self.run_vlf("compare", "gl.exr", "cpu.exr", "--exposure", "auto", "--json", "c.json")
             self.assertLess(self.json("c.json")["flip"], 0.01)
 
+    def test_the_gpu_memory_that_info_tells_is_what_opengl_takes(self):
+        self.run_vlf("scene", "mirror-room", "-o", ".")
+        self.run_vlf("bake", "mirror-room.obj", "-o", "mirrors.vlf", "--preset", "draft", "--texel",
+                     "0.2", "--cells", "64")
+        self.run_vlf("info", "mirrors.vlf", "--gpu", "--json", "info.json",
+                     says=["memory of the GPU"])
+        told = self.json("info.json")["gpuMemory"]
+        render = ["render", "mirrors.vlf", "--mode", "field", "--backend", "gl", "--size", "64x48",
+                  "--antialias", "1", "-o", "a.png", "--json", "render.json"]
+        self.run_vlf(*render)
+        for part in ["geometry", "atlas", "radiance", "textures", "radianceElements"]:
+            self.assertEqual(told[part], self.json("render.json")["gpuMemory"][part], part)
+        half = told["total"] // 2
+        self.run_vlf(*render, "--gpu-memory", half, says=["warning: mirrors are shown"])
+        taken = self.json("render.json")["gpuMemory"]
+        self.assertLessEqual(taken["radiance"], half)
+        self.run_vlf(*render, "--gpu-memory", "1k", code=BAD_INPUT, says=["fewer --radiance-cells"])
+
     def test_opengl_draws_every_mode(self):
         self.bake("room.vlf")
         for mode in ("raytraced", "field", "progressive", "wireframe", "diagram"):

@@ -2,10 +2,10 @@
 
 #include "vlf/base/error.h"
 #include "vlf/base/parallel.h"
+#include "vlf/field/pack_atlas.h"
 #include "vlf/unwrap/buried_points.h"
 #include "vlf/unwrap/chart_groups.h"
 #include "vlf/unwrap/chart_layout.h"
-#include "vlf/unwrap/pack_atlas.h"
 #include "vlf/unwrap/seams.h"
 #include "vlf/unwrap/side_exposure.h"
 #include "vlf/unwrap/texel_size.h"

@@ -4,9 +4,9 @@
 
 #include "vlf/base/progress.h"
 #include "vlf/field/chart.h"
+#include "vlf/field/pack_atlas.h"
 #include "vlf/scene/scene.h"
 #include "vlf/trace/ray_scene.h"
-#include "vlf/unwrap/pack_atlas.h"
 #include "vlf/unwrap/texel_points.h"
 
 #include <cstdint>

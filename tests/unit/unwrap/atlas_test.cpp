@@ -4,9 +4,9 @@
 
 #include "vlf/base/error.h"
 #include "vlf/base/parallel.h"
+#include "vlf/field/pack_atlas.h"
 #include "vlf/math/random.h"
 #include "vlf/scene/generate/generate.h"
-#include "vlf/unwrap/pack_atlas.h"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,15 @@
 #include "vlf/render/gl/gl_object.h"
 
+#include "vlf/base/error.h"
+
 #include <atomic>
+#include <string>
 
 namespace vlf::gl {
 
 namespace {
+
+constexpr std::size_t kLarge = 1 << 20;  // bytes; asking after an error takes time
 
 std::atomic<int> objects{0};
 
@@ -32,6 +37,10 @@ Buffer makeBuffer(const void* data, std::size_t bytes, GLbitfield flags) {
         glNamedBufferStorage(buffer.id(), 16, nullptr, flags);
     else
         glNamedBufferStorage(buffer.id(), static_cast<GLsizeiptr>(bytes), data, flags);
+    if (bytes > kLarge && glGetError() == GL_OUT_OF_MEMORY)
+        throw InputError("the GPU has no room for another " + std::to_string(bytes) +
+                         " bytes; limit what the room takes (--gpu-memory), bake it coarser, or "
+                         "render with --backend cpu");
     return buffer;
 }
 

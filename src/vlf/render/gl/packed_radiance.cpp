@@ -1,90 +1,59 @@
 #include "vlf/render/gl/packed_radiance.h"
 
-#include "vlf/base/error.h"
 #include "vlf/base/parallel.h"
 #include "vlf/render/gl/shaders/shared.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <limits>
+#include <span>
 
 namespace vlf {
 
 namespace {
 
-constexpr float kShearUnit = 1 / 256.0f, kMostShear = 15;  // exact in a float, times any row
 constexpr int kSums = (1 << shared::kSumBits) - 1;
-constexpr int kShares = (1 << shared::kShareBits) - 1;
+constexpr int kReds = (1 << shared::kRedBits) - 1, kBlues = (1 << shared::kBlueBits) - 1;
 constexpr int kDistances = (1 << shared::kDistanceBits) - 1;
 
-/// The cells of a row that hold something, first and last.
-struct RowExtent {
-    int y, first, last;
+// What is darker than this beside the brightest cannot be seen in one picture with it.
+constexpr float kMostOctaves = 16;
+constexpr float kBlackest = -64;  // black, as the log2 of a sum of red, green and blue
+
+/// Of a radiance: log2 of the sum of red, green and blue, and shares of red and blue in it.
+struct Color {
+    float logSum = kBlackest, red = 0, blue = 0;
 };
 
-std::vector<RowExtent> extents(const RadianceField& field, std::span<const TileRow> rows) {
-    std::vector<RowExtent> result;
-    for (const TileRow& row : rows)
-        for (int y = row.tileY * field.tileSize; y < (row.tileY + 1) * field.tileSize; ++y) {
-            RowExtent extent{y, std::numeric_limits<int>::max(), -1};
-            for (int x = row.tileX * field.tileSize;
-                 x < (row.tileX + row.tilesWide) * field.tileSize; ++x) {
-                const RadianceElement* e = field.element(rows, x, y);
-                if (!e || e->distance == 0) continue;
-                extent.first = std::min(extent.first, x);
-                extent.last = x;
-            }
-            if (extent.last >= 0) result.push_back(extent);
+/// Colours of shared-exponent radiance. Its mantissas have small integers for a sum.
+class ColorTable {
+  public:
+    ColorTable() {
+        for (std::size_t i = 1; i < kSize; ++i) {
+            log2_[i] = std::log2(static_cast<float>(i));
+            inverse_[i] = 1 / static_cast<float>(i);
         }
-    return result;
-}
-
-int shift(float shear, int row) {
-    return static_cast<int>(std::floor(shear * static_cast<float>(row)));
-}
-
-/// First and last column of the rectangle with a shear.
-std::pair<int, int> columns(const std::vector<RowExtent>& rows, float shear) {
-    int first = std::numeric_limits<int>::max(), last = std::numeric_limits<int>::min();
-    for (const RowExtent& row : rows) {
-        const int offset = shift(shear, row.y - rows.front().y);
-        first = std::min(first, row.first - offset);
-        last = std::max(last, row.last - offset);
     }
-    return {first, last};
-}
 
-/// The shear of the narrowest rectangle: its width is convex in the shear but for rounding.
-float bestShear(const std::vector<RowExtent>& rows) {
-    const auto width = [&](int s) {
-        const auto [first, last] = columns(rows, static_cast<float>(s) * kShearUnit);
-        return last - first;
-    };
-    int lower = static_cast<int>(-kMostShear / kShearUnit), upper = -lower;
-    while (upper - lower > 8) {
-        const int a = lower + (upper - lower) / 3, b = upper - (upper - lower) / 3;
-        (width(a) < width(b) ? upper : lower) = width(a) < width(b) ? b : a;
+    Color colorOf(std::uint32_t rgb9e5) const {
+        const std::uint32_t red = rgb9e5 & 511, green = rgb9e5 >> 9 & 511,
+                            blue = rgb9e5 >> 18 & 511;
+        const std::uint32_t sum = red + green + blue;
+        if (sum == 0) return {};
+        const float exponent = static_cast<float>(rgb9e5 >> 27) - 24;
+        return {log2_[sum] + exponent, static_cast<float>(red) * inverse_[sum],
+                static_cast<float>(blue) * inverse_[sum]};
     }
-    int best = 0;
-    for (int s = lower; s <= upper; ++s)
-        if (width(s) < width(best)) best = s;
-    return static_cast<float>(best) * kShearUnit;
-}
 
-RadianceRecord layOut(const RadianceField& field, std::uint32_t direction, std::uint32_t chart) {
-    const auto rows = extents(field, field.rowsOf(direction, chart));
-    if (rows.empty()) return {};
-    RadianceRecord record;
-    record.shear = bestShear(rows);
-    const auto [first, last] = columns(rows, record.shear);
-    record.x = static_cast<std::uint16_t>(first + 0x8000);
-    record.y = static_cast<std::uint16_t>(rows.front().y);
-    record.width = static_cast<std::uint16_t>(last - first + 1);
-    record.height = static_cast<std::uint16_t>(rows.back().y - rows.front().y + 1);
-    return record;
-}
+  private:
+    static constexpr std::size_t kSize = 3 * 511 + 1;
+    std::array<float, kSize> log2_{}, inverse_{};
+};
 
-float sumOf(const Vec3& rgb) {
-    return rgb.x + rgb.y + rgb.z;
+const ColorTable& colorTable() {
+    static const ColorTable table;
+    return table;
 }
 
 struct Range {
@@ -94,98 +63,176 @@ struct Range {
         lower = std::min(lower, v);
         upper = std::max(upper, v);
     }
-    /// Codes from `least` to `largest` over the range.
-    LinearCode code(int least, int largest) const {
+    void add(const Range& other) {
+        lower = std::min(lower, other.lower);
+        upper = std::max(upper, other.upper);
+    }
+    /// Codes from 0 to `largest` over the range.
+    LinearCode code(int largest) const {
         if (lower > upper) return {0, 1};
-        const float step = std::max((upper - lower) / static_cast<float>(largest - least), 1e-6f);
-        return {lower - static_cast<float>(least) * step, step};
+        return {lower, std::max((upper - lower) / static_cast<float>(largest), 1e-6f)};
+    }
+};
+
+/// What elements take of each part of a code.
+struct Ranges {
+    std::uint16_t longest = 1;
+    Range logSum, red, blue;
+
+    void add(const RadianceElement& e, const ColorTable& table) {
+        if (e.distance == 0) return;
+        longest = std::max(longest, e.distance);
+        const Color color = table.colorOf(e.rgb9e5());
+        logSum.add(color.logSum);
+        if (color.logSum == kBlackest) return;
+        red.add(color.red);
+        blue.add(color.blue);
+    }
+    void add(const Ranges& other) {
+        longest = std::max(longest, other.longest);
+        logSum.add(other.logSum);
+        red.add(other.red);
+        blue.add(other.blue);
     }
 };
 
 void findCodes(const RadianceField& field, PackedRadiance& packed) {
-    // What is darker than this beside the brightest cannot be seen in one picture with it.
-    constexpr float kMostOctaves = 16;
-    std::uint16_t longest = 1;
-    Range logSum, red, blue;
-    for (const RadianceElement& e : field.elements) {
-        if (e.distance == 0) continue;
-        longest = std::max(longest, e.distance);
-        const Vec3 rgb = unpackRgb9e5(e.rgb9e5());
-        const float sum = sumOf(rgb);
-        if (sum <= 0) continue;
-        logSum.add(std::log2(sum));
-        red.add(rgb.x / sum);
-        blue.add(rgb.z / sum);
+    constexpr std::size_t kBlock = 1 << 16;
+    std::vector<Ranges> blocks((field.elements.size() + kBlock - 1) / kBlock);
+    const ColorTable& table = colorTable();
+    parallelFor(blocks.size(), [&](std::size_t b) {
+        const std::size_t end = std::min((b + 1) * kBlock, field.elements.size());
+        Ranges block;
+        for (std::size_t i = b * kBlock; i < end; ++i) block.add(field.elements[i], table);
+        blocks[b] = block;
+    });
+    Ranges all;
+    for (const Ranges& block : blocks) all.add(block);
+    all.logSum.lower = std::max(all.logSum.lower, all.logSum.upper - kMostOctaves);
+    packed.longestDistance = field.maxDistance * static_cast<float>(all.longest) / 65535;
+    packed.logSum = all.logSum.code(kSums);
+    packed.red = all.red.code(kReds);
+    packed.blue = all.blue.code(kBlues);
+}
+
+/// What k x k cells of the field hold, as one: the median distance and the mean radiance. Distance
+/// 0 where no cell holds anything.
+RadianceElement meanOf(const RadianceField& field, std::span<const TileRow> rows, int x, int y,
+                       int k) {
+    std::vector<std::uint16_t> distances;
+    Vec3 sum(0);
+    for (int i = 0; i < k * k; ++i) {
+        const RadianceElement* e = field.element(rows, k * x + i % k, k * y + i / k);
+        if (!e || e->distance == 0) continue;
+        distances.push_back(e->distance);
+        sum += unpackRgb9e5(e->rgb9e5());
     }
-    logSum.lower = std::max(logSum.lower, logSum.upper - kMostOctaves);
-    packed.longestDistance = field.maxDistance * static_cast<float>(longest) / 65535;
-    packed.logSum = logSum.code(1, kSums);
-    packed.red = red.code(0, kShares);
-    packed.blue = blue.code(0, kShares);
+    if (distances.empty()) return {};
+    const auto median = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
+    std::nth_element(distances.begin(), median, distances.end());
+    return {packRgb9e5(sum / static_cast<float>(distances.size())), *median};
 }
 
-std::uint32_t encode(float v, const LinearCode& code, int least, int largest) {
-    const float c = std::round((v - code.first) / code.step);
-    return static_cast<std::uint32_t>(
-        std::clamp(c, static_cast<float>(least), static_cast<float>(largest)));
+/// Ordered dither: the mean of four neighbouring cells, which is what a lookup takes, is finer than
+/// the codes.
+float thresholdOf(int x, int y) {
+    constexpr float kThresholds[2][2] = {{0.125f, 0.625f}, {0.875f, 0.375f}};
+    return kThresholds[y & 1][x & 1];
 }
 
-std::uint32_t pack(const RadianceElement& e, const RadianceField& field,
-                   const PackedRadiance& packed) {
-    const float metres = field.maxDistance * static_cast<float>(e.distance) / 65535;
-    const std::uint32_t distance =
-        encode(metres, {0, packed.longestDistance / kDistances}, 1, kDistances);
-    const Vec3 rgb = unpackRgb9e5(e.rgb9e5());
-    const float sum = sumOf(rgb);
-    if (sum <= 0) return distance;
-    return distance | encode(std::log2(sum), packed.logSum, 1, kSums) << shared::kDistanceBits |
-           encode(rgb.x / sum, packed.red, 0, kShares)
-               << (shared::kDistanceBits + shared::kSumBits) |
-           encode(rgb.z / sum, packed.blue, 0, kShares)
-               << (shared::kDistanceBits + shared::kSumBits + shared::kShareBits);
-}
+/// Values to codes from 0 to `largest`.
+class Encoder {
+  public:
+    Encoder(const LinearCode& code, int largest)
+        : first_(code.first), perStep_(1 / code.step), largest_(static_cast<float>(largest)) {}
 
-void fill(const RadianceField& field, std::uint32_t direction, std::uint32_t chart,
-          const RadianceRecord& record, PackedRadiance& packed) {
-    const auto rows = field.rowsOf(direction, chart);
-    for (int y = 0; y < record.height; ++y)
-        for (int x = 0; x < record.width; ++x) {
-            const int column = record.x - 0x8000 + shift(record.shear, y) + x;
-            const RadianceElement* e = field.element(rows, column, record.y + y);
-            if (!e || e->distance == 0) continue;
-            const std::size_t i =
-                std::size_t{record.firstElement} + static_cast<std::size_t>(y) * record.width + x;
-            packed.elements[i] = pack(*e, field, packed);
+    /// Rounds up from `threshold` of the way to the next code.
+    std::uint32_t operator()(float v, float threshold = 0.5f) const {
+        const float c = (v - first_) * perStep_ + 1 - threshold;
+        return static_cast<std::uint32_t>(std::clamp(c, 0.0f, largest_));
+    }
+
+  private:
+    float first_, perStep_, largest_;
+};
+
+class Packer {
+  public:
+    Packer(const RadianceField& field, PackedRadiance& packed)
+        : field_(field),
+          packed_(packed),
+          distance_({0, packed.longestDistance / kDistances}, kDistances),
+          logSum_(packed.logSum, kSums),
+          red_(packed.red, kReds),
+          blue_(packed.blue, kBlues) {}
+
+    /// Writes the elements of a chart in a direction.
+    void fill(std::span<const TileRow> rows, const RadianceRecord& record, int coarseness) const {
+        for (int row = 0; row < record.height; ++row) {
+            std::uint32_t* elements =
+                &packed_
+                     .elements[record.firstElement + static_cast<std::size_t>(row) * record.width];
+            const int first = record.firstColumn(row), y = record.y + row;
+            if (coarseness == 1)
+                fillRow(rows, first, first + record.width, y, elements);
+            else
+                for (int i = 0; i < record.width; ++i)
+                    elements[i] =
+                        pack(meanOf(field_, rows, first + i, y, coarseness), first + i, y);
         }
-}
+    }
+
+  private:
+    /// Cells first ... end of row y, as far as the field's tiles reach.
+    void fillRow(std::span<const TileRow> rows, int first, int end, int y,
+                 std::uint32_t* elements) const {
+        const int m = field_.tileSize;
+        const TileRow& tiles = rows[static_cast<std::size_t>(y / m - rows.front().tileY)];
+        const int begin = std::max(first, tiles.tileX * m);
+        end = std::min(end, (tiles.tileX + tiles.tilesWide) * m);
+        for (int x = begin; x < end;) {
+            const auto tile = static_cast<std::uint64_t>(x / m - tiles.tileX);
+            const RadianceElement* e =
+                &field_.elements[tiles.firstElement + tile * field_.tileElements() +
+                                 static_cast<std::uint64_t>(y % m * m)];
+            for (const int tileEnd = std::min(end, (x / m + 1) * m); x < tileEnd; ++x)
+                elements[x - first] = pack(e[x % m], x, y);
+        }
+    }
+
+    /// What the subfield's cell (x, y) holds.
+    std::uint32_t pack(const RadianceElement& e, int x, int y) const {
+        if (e.distance == 0) return 0;
+        const float metres = field_.maxDistance / 65535 * static_cast<float>(e.distance);
+        const Color color = colorTable_.colorOf(e.rgb9e5());
+        // Each part has its own pattern, so that they do not err all in the same cells.
+        using namespace shared;
+        return std::max(1u, distance_(metres)) |
+               logSum_(color.logSum, thresholdOf(x, y)) << kDistanceBits |
+               red_(color.red, thresholdOf(x + 1, y)) << (kDistanceBits + kSumBits) |
+               blue_(color.blue, thresholdOf(x, y + 1)) << (kDistanceBits + kSumBits + kRedBits);
+    }
+
+    const RadianceField& field_;
+    PackedRadiance& packed_;
+    const ColorTable& colorTable_ = colorTable();
+    Encoder distance_, logSum_, red_, blue_;
+};
 
 }  // namespace
 
-PackedRadiance packRadiance(const RadianceField& field, const std::vector<std::uint32_t>& charts) {
+PackedRadiance packRadiance(const RadianceField& field, const std::vector<std::uint32_t>& charts,
+                            const RadianceLayout& layout) {
     PackedRadiance packed;
+    packed.elements.assign((layout.elements + 3) / 4 * 4, 0);
     if (field.empty()) return packed;
-    const auto directions = static_cast<std::size_t>(2 * field.lines);
-    packed.records.resize(charts.size() * directions);
-    const auto chartOf = [&](std::size_t i) { return charts[i / directions]; };
-    const auto directionOf = [&](std::size_t i) {
-        return static_cast<std::uint32_t>(i % directions);
-    };
-    parallelFor(packed.records.size(), 16, [&](std::size_t i) {
-        packed.records[i] = layOut(field, directionOf(i), chartOf(i));
-    });
-    std::uint64_t next = 0;
-    for (RadianceRecord& record : packed.records) {
-        record.firstElement = static_cast<std::uint32_t>(next);
-        next += std::uint64_t{record.width} * record.height;
-    }
-    if (next > std::numeric_limits<std::uint32_t>::max())
-        throw InputError(
-            "the radiance field holds too many elements to be shown: bake it with "
-            "fewer --radiance-cells");
-    packed.elements.assign(next, 0);
     findCodes(field, packed);
-    parallelFor(packed.records.size(), 16, [&](std::size_t i) {
-        fill(field, directionOf(i), chartOf(i), packed.records[i], packed);
+    const Packer packer(field, packed);
+    const auto directions = static_cast<std::size_t>(2 * field.lines);
+    parallelFor(layout.records.size(), 16, [&](std::size_t i) {
+        const auto direction = static_cast<std::uint32_t>(i % directions);
+        packer.fill(field.rowsOf(direction, charts[i / directions]), layout.records[i],
+                    layout.coarseness);
     });
     return packed;
 }

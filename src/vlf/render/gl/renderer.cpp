@@ -1,9 +1,11 @@
 #include "vlf/render/gl/renderer.h"
 
 #include "vlf/base/error.h"
+#include "vlf/render/gl/atlas_fit.h"
 #include "vlf/render/gl/drawings.h"
 #include "vlf/render/gl/gl_object.h"
 #include "vlf/render/gl/gl_state.h"
+#include "vlf/render/gl/gpu_memory.h"
 #include "vlf/render/gl/hit_buffers.h"
 #include "vlf/render/gl/packed_radiance.h"
 #include "vlf/render/gl/room_geometry.h"
@@ -61,9 +63,14 @@ void requireLimit(std::uint64_t needed, GLenum limit, const std::string& what) {
                          std::to_string(most) + "); bake it coarser, or render with --backend cpu");
 }
 
+std::uint32_t textureSide(const RendererOptions& options) {
+    GLint most = 0;
+    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
+    const auto side = static_cast<std::uint32_t>(most);
+    return options.maxTextureSize > 0 ? std::min(side, options.maxTextureSize) : side;
+}
+
 TextureObject makeAtlasTexture(const IrradianceAtlas& atlas) {
-    requireLimit(std::max(atlas.width, atlas.height), GL_MAX_TEXTURE_SIZE,
-                 "the side of the irradiance atlas");
     TextureObject texture = makeTexture(GL_TEXTURE_2D);
     glTextureStorage2D(texture.id(), 1, GL_RGB9_E5, static_cast<GLsizei>(std::max(1u, atlas.width)),
                        static_cast<GLsizei>(std::max(1u, atlas.height)));
@@ -73,30 +80,49 @@ TextureObject makeAtlasTexture(const IrradianceAtlas& atlas) {
     return texture;
 }
 
+std::uint64_t bufferTexels(const RendererOptions& options) {
+    GLint most = 0;
+    glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &most);
+    const auto texels = static_cast<std::uint64_t>(most);
+    return options.maxBufferTexels > 0 ? std::min(texels, options.maxBufferTexels) : texels;
+}
+
+/// What is left for the radiance field where other things take `others` bytes.
+RadianceLimits radianceLimits(const RendererOptions& options, std::uint64_t others) {
+    RadianceLimits limits;
+    limits.elements = std::min(limits.elements, 4 * bufferTexels(options));
+    if (options.maxMemory > 0)
+        limits.bytes = options.maxMemory - std::min(options.maxMemory, others);
+    return limits;
+}
+
 }  // namespace
 
 struct Renderer::Impl {
     Impl(const Scene& shown, const LightField& field, const RendererOptions& options)
         : scene(shown),
           lightField(field),
-          charts(field.charts),
-          triangleCharts(field.triangleCharts),
           shaders(options.shaderFolder),
-          textures(scene) {
+          textures(scene),
+          fit(field, textureSide(options)) {
         if (field.triangleCharts.size() != scene.triangles.size())
             throw InputError("the light field belongs to another scene: bake this one");
-        const RoomGeometry room = makeRoomGeometry(scene, field);
+        const RoomGeometry room = makeRoomGeometry(scene, fit.layout());
         canLookUp = room.mirrorCharts.empty() || !field.radiance.empty();
         loadGeometry(room);
-        loadRadiance(field, packRadiance(field.radiance, room.mirrorCharts));
-        atlas = makeAtlasTexture(field.atlas);
+        atlas = makeAtlasTexture(fit.layout().atlas);
+        if (fit.factor() > 1)
+            notices.push_back("light is shown with " + std::to_string(fit.factor()) + " x " +
+                              std::to_string(fit.factor()) +
+                              " texels made one: the irradiance atlas is larger than a texture of "
+                              "this GPU may be");
         loadIrradiance(field.atlas);
         viewBuffer = makeBuffer(nullptr, sizeof(ViewData), GL_DYNAMIC_STORAGE_BIT);
         nearest = kNearest * field.frame.radius;
         rayStart = rayEpsilon(scene);
+        memory.textures = textureBytes(scene);
+        loadRadiance(field, room.mirrorCharts, options);
         makePrograms();
-        memory.atlas = 4 * field.atlas.irradiance.size();
-        memory.textures = textures.bytes();
     }
 
     void loadGeometry(const RoomGeometry& room) {
@@ -108,39 +134,50 @@ struct Renderer::Impl {
         vertexArray = makeRoomVertexArray(vertices, indices);
         for (const RoomBatch& batch : batches)
             materialBuffers.push_back(makeBuffer(&batch.data, sizeof batch.data));
-        memory.geometry = room.vertices.size() * sizeof(RoomVertex) + 4 * room.indices.size();
+        memory.geometry = bytesOf(room);
     }
 
-    void loadRadiance(const LightField& field, const PackedRadiance& packed) {
-        requireLimit(packed.elements.size(), GL_MAX_TEXTURE_BUFFER_SIZE,
-                     "the number of elements of the radiance field");
-        requireLimit(packed.records.size(), GL_MAX_TEXTURE_BUFFER_SIZE,
+    void loadRadiance(const LightField& field, const std::vector<std::uint32_t>& charts,
+                      const RendererOptions& options) {
+        const std::uint64_t others = memory.total();
+        const RadianceLayout layout =
+            layOutWithin(radianceLimits(options, others), field.radiance, charts);
+        const PackedRadiance packed = packRadiance(field.radiance, charts, layout);
+        requireLimit(layout.records.size(), GL_MAX_TEXTURE_BUFFER_SIZE,
                      "the number of mirrors times directions");
         elements = makeBuffer(packed.elements.data(), 4 * packed.elements.size());
-        records = makeBuffer(packed.records.data(), sizeof(RadianceRecord) * packed.records.size());
-        elementTexture = makeBufferTexture(elements, GL_R32UI);
+        records = makeBuffer(layout.records.data(), sizeof(RadianceRecord) * layout.records.size());
+        fourATexel = layout.elements > bufferTexels(options);
+        elementTexture = makeBufferTexture(elements, fourATexel ? GL_RGBA32UI : GL_R32UI);
         recordTexture = makeBufferTexture(records, GL_RGBA32UI);
+        if (layout.coarseness > 1)
+            notices.push_back(
+                "mirrors are shown with cells of " + std::to_string(layout.coarseness) + " x " +
+                std::to_string(layout.coarseness) +
+                " made one: all of the radiance field is too much for the GPU's memory");
         const RadianceField& r = field.radiance;
         const float diameter = 2 * field.frame.radius;
-        viewData.fieldFrame = Vec4(field.frame.centre, static_cast<float>(r.cells - 1) / diameter);
-        viewData.field = {std::sqrt(0.5f * static_cast<float>(std::max(r.lines, 1) - 1)), r.lines,
-                          0.5f * static_cast<float>(r.cells - 1),
-                          kTolerance * diameter / static_cast<float>(std::max(r.cells, 1))};
+        const float cells = static_cast<float>(r.cells - 1) / static_cast<float>(layout.coarseness);
+        viewData.fieldFrame = Vec4(field.frame.centre, cells / diameter);
+        viewData.field = {std::sqrt(0.5f * static_cast<float>(std::max(r.lines, 1) - 1)), r.lines, 0.5f * cells,
+                          kTolerance * diameter / std::max(cells, 1.0f)};
         viewData.elementCode = {packed.longestDistance, packed.logSum.first, packed.logSum.step, 0};
         viewData.shareCode = {packed.red.first, packed.red.step, packed.blue.first,
                               packed.blue.step};
-        memory.radiance =
-            4 * packed.elements.size() + sizeof(RadianceRecord) * packed.records.size();
-        memory.radianceElements = packed.elements.size();
+        memory.radiance = layout.bytes();
+        memory.radianceElements = layout.elements;
     }
 
-    void loadIrradiance(const IrradianceAtlas& light) {
+    void loadIrradiance(const IrradianceAtlas& whole) {
+        const IrradianceAtlas fitted = fit.unchanged() ? IrradianceAtlas{} : fit.fit(whole);
+        const IrradianceAtlas& light = fit.unchanged() ? whole : fitted;
         std::vector<std::uint32_t> packed(light.irradiance.size());
         std::transform(light.irradiance.begin(), light.irradiance.end(), packed.begin(),
                        packRgb9e5);
         glTextureSubImage2D(atlas.id(), 0, 0, 0, static_cast<GLsizei>(light.width),
                             static_cast<GLsizei>(light.height), GL_RGB, GL_UNSIGNED_INT_5_9_9_9_REV,
                             packed.data());
+        memory.atlas = 4 * packed.size();
     }
 
     /// Those of mode field, so that no frame waits for them.
@@ -163,6 +200,7 @@ struct Renderer::Impl {
             d.emplace("MIRROR", traced ? "\"traced_reflection.glsl\"" : "\"radiance_field.glsl\"");
         if (batch.mirror && !traced && settings.lookup == LookupKind::plain)
             d.emplace("PLAIN", "1");
+        if (batch.mirror && !traced && fourATexel) d.emplace("FOUR_A_TEXEL", "1");
         return d;
     }
 
@@ -170,8 +208,7 @@ struct Renderer::Impl {
         if (!showsRadiance(mode)) {
             if (!drawings) drawings.emplace(scene, lightField, shaders);
         } else if (mode == DisplayMode::raytraced) {
-            if (!hits) hits.emplace(scene, charts, triangleCharts, mirrorTriangles);
-            memory.hits = hits->bytes();
+            if (!hits) loadHits();
         } else if (mode != DisplayMode::field) {
             throw InputError("mode progressive takes many calls: it is ProgressiveRenderer's");
         } else if (!canLookUp) {
@@ -179,6 +216,12 @@ struct Renderer::Impl {
                 "the light field holds no radiance of mirrors to look up: bake with "
                 "radiance directions, or trace reflections (mode raytraced)");
         }
+    }
+
+    void loadHits() {
+        const LightField layout = fit.layout();
+        hits.emplace(scene, layout.charts, layout.triangleCharts, mirrorTriangles);
+        memory.hits = hits->bytes();
     }
 
     void draw(const View& view, const RenderSettings& settings, GLuint framebuffer) {
@@ -218,6 +261,10 @@ struct Renderer::Impl {
             drawings->subfield(view, settings.diagram, settings.diagramCamera, framebuffer);
             return;
         }
+        if (kind == DiagramKind::chart && !fit.unchanged())
+            throw InputError(
+                "the texels of a chart cannot be shown: this GPU shows the irradiance atlas packed "
+                "anew; render the diagram with --backend cpu");
         RenderSettings beneath = settings;
         beneath.mode = settings.diagramRoom;
         makeReady(beneath.mode);
@@ -270,14 +317,13 @@ struct Renderer::Impl {
 
     const Scene& scene;
     const LightField& lightField;
-    std::vector<Chart> charts;
-    std::vector<TriangleCharts> triangleCharts;
     ShaderLibrary shaders;
     SceneTextures textures;
     std::vector<RoomBatch> batches;
     Buffer vertices, indices, elements, records, viewBuffer;
     std::vector<Buffer> materialBuffers;  ///< of each batch
     VertexArray vertexArray;
+    AtlasFit fit;
     TextureObject atlas, elementTexture, recordTexture;
     std::vector<std::uint32_t> mirrorTriangles;
     std::optional<HitBuffers> hits;    ///< once reflections are traced
@@ -285,6 +331,8 @@ struct Renderer::Impl {
     GLsizei indexCount = 0;
     ViewData viewData{};
     GpuMemory memory;
+    std::vector<std::string> notices;
+    bool fourATexel = false;  ///< elements of the radiance field
     float nearest = 0, rayStart = 0;  ///< metres
     bool canLookUp = true;
     std::uint64_t lightChanges = 0;
@@ -326,6 +374,10 @@ void Renderer::reloadShaders() {
 
 float Renderer::nearest() const {
     return impl_->nearest;
+}
+
+const std::vector<std::string>& Renderer::notices() const {
+    return impl_->notices;
 }
 
 const GpuMemory& Renderer::memory() const {

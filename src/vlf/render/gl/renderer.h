@@ -13,11 +13,15 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace vlf {
 
 struct RendererOptions {
-    std::string shaderFolder;  ///< files here are used in place of the built-in shaders
+    std::string shaderFolder;           ///< files here are used in place of the built-in shaders
+    std::uint64_t maxMemory = 0;        ///< bytes on the GPU, 0: no limit; see Renderer::notices
+    std::uint32_t maxTextureSize = 0;   ///< texels along a side, 0: as the GPU allows
+    std::uint64_t maxBufferTexels = 0;  ///< texels of a buffer texture, 0: as the GPU allows
 };
 
 struct RenderSettings {
@@ -55,7 +59,8 @@ class Renderer {
   public:
     /// Copies what it needs to the GPU; of scene and field, which must outlive it, what traced
     /// reflections and drawings need when they are first drawn. Throws InputError if the field is
-    /// not of this scene, or the atlas or radiance field exceed what the GPU can hold.
+    /// not of this scene, the atlas or, at its coarsest, the radiance field exceed what the GPU or
+    /// options.maxMemory can hold, or a shader of options.shaderFolder is at fault.
     Renderer(const Scene& scene, const LightField& field, const RendererOptions& options = {});
     ~Renderer();
     Renderer(Renderer&&) noexcept;
@@ -87,6 +92,9 @@ class Renderer {
     void reloadShaders();
 
     const GpuMemory& memory() const;
+
+    /// What is shown less finely than the field has it, for want of memory: sentences for the user.
+    const std::vector<std::string>& notices() const;
 
     /// Distance of a near plane that suits the room, metres.
     float nearest() const;

@@ -42,11 +42,7 @@ TextureObject makeWhite() {
 }  // namespace
 
 SceneTextures::SceneTextures(const Scene& scene) : white_(makeWhite()) {
-    for (const vlf::Texture& source : scene.textures) {
-        textures_.push_back(upload(source));
-        const auto pixels = static_cast<std::uint64_t>(source.width) * source.height;
-        bytes_ += pixels * (source.linear.empty() ? 4 : 6) * 4 / 3;
-    }
+    for (const vlf::Texture& source : scene.textures) textures_.push_back(upload(source));
 }
 
 void SceneTextures::bind(int unit, int texture) const {

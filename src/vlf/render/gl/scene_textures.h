@@ -4,7 +4,6 @@
 #include "vlf/render/gl/gl_object.h"
 #include "vlf/scene/scene.h"
 
-#include <cstdint>
 #include <vector>
 
 namespace vlf::gl {
@@ -16,12 +15,9 @@ class SceneTextures {
     /// Binds a texture of the scene to a unit; white for -1.
     void bind(int unit, int texture) const;
 
-    std::uint64_t bytes() const { return bytes_; }
-
   private:
     std::vector<TextureObject> textures_;
     TextureObject white_;
-    std::uint64_t bytes_ = 0;
 };
 
 }  // namespace vlf::gl

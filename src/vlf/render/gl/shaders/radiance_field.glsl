@@ -7,8 +7,10 @@ layout(binding = kRecordUnit) uniform usamplerBuffer records;
 #include "direction_set.glsl"
 
 const float kMinCosine = 1e-3;
+const float kNone = 1e30;  // no depth
 
-// One direction's subfield along the line of sight, see render/cpu/radiance_lookup.cpp.
+// One direction's subfield along the line of sight, see render/cpu/radiance_lookup.cpp: at depth s
+// it is at cell + s * drift, and an element with distance d is at the depth d * metres.
 struct Sight {
     uvec4 record;
     vec2 cell, drift;
@@ -16,25 +18,59 @@ struct Sight {
     float weight;
 };
 
-uint elementAt(uvec4 record, vec2 at) {
-    ivec2 c = ivec2(floor(at)) - ivec2(record.y & 0xffffu, record.y >> 16);
-    c.x += 0x8000 - int(floor(uintBitsToFloat(record.w) * float(c.y)));
+// The element of column x of a row of cells; 0 where there is none.
+uint elementOf(uvec4 record, int row, int x) {
     uvec2 size = uvec2(record.z & 0xffffu, record.z >> 16);
-    if (uint(c.x) >= size.x || uint(c.y) >= size.y) return 0u;
-    return texelFetch(elements, int(record.x + uint(c.y) * size.x + uint(c.x))).r;
+    bool inside = uint(x) < size.x && uint(row) < size.y;
+    uint index = inside ? record.x + uint(row) * size.x + uint(x) : 0u;
+#ifdef FOUR_A_TEXEL
+    uint element = texelFetch(elements, int(index >> 2))[index & 3u];
+#else
+    uint element = texelFetch(elements, int(index)).r;
+#endif
+    return inside ? element : 0u;
+}
+
+// Row in a record, and column there of the cell with x = 0.
+ivec2 rowOf(uvec4 record, int y) {
+    int row = y - int(record.y >> 16);
+    int shift = int(floor(uintBitsToFloat(record.w) * float(row)));
+    return ivec2(row, 0x8000 - int(record.y & 0xffffu) - shift);
+}
+
+uint elementAt(uvec4 record, vec2 at) {
+    ivec2 cell = ivec2(floor(at)), row = rowOf(record, cell.y);
+    return elementOf(record, row.x, row.y + cell.x);
+}
+
+// The four cells around a point, and their weights.
+uvec4 elementsAround(uvec4 record, vec2 at, out vec4 weights) {
+    vec2 lower = floor(at - 0.5), t = at - 0.5 - lower;
+    weights = vec4((1 - t.x) * (1 - t.y), t.x * (1 - t.y), (1 - t.x) * t.y, t.x * t.y);
+    ivec2 cell = ivec2(lower), a = rowOf(record, cell.y), b = rowOf(record, cell.y + 1);
+    return uvec4(elementOf(record, a.x, a.y + cell.x), elementOf(record, a.x, a.y + cell.x + 1),
+                 elementOf(record, b.x, b.y + cell.x), elementOf(record, b.x, b.y + cell.x + 1));
 }
 
 float distanceOf(uint element) {
     return float(bitfieldExtract(element, 0, kDistanceBits));
 }
 
-vec3 radianceOf(uint element) {
-    uint code = bitfieldExtract(element, kDistanceBits, kSumBits);
-    float sum = code == 0u ? 0 : exp2(view.elementCode.y + view.elementCode.z * float(code));
-    vec2 share = vec2(bitfieldExtract(element, kDistanceBits + kSumBits, kShareBits),
-                      bitfieldExtract(element, kDistanceBits + kSumBits + kShareBits, kShareBits));
-    share = view.shareCode.xz + share * view.shareCode.yw;
-    return sum * vec3(share.x, max(1 - share.x - share.y, 0), share.y);
+// Of the sum of red, green and blue.
+float rootOf(uint element) {
+    float code = float(bitfieldExtract(element, kDistanceBits, kSumBits));
+    return exp2(0.5 * (view.elementCode.y + view.elementCode.z * code));
+}
+
+// Of red and blue in that sum.
+vec2 sharesOf(uint element) {
+    uvec2 code = uvec2(bitfieldExtract(element, kDistanceBits + kSumBits, kRedBits),
+                       bitfieldExtract(element, kDistanceBits + kSumBits + kRedBits, kBlueBits));
+    return view.shareCode.xz + vec2(code) * view.shareCode.yw;
+}
+
+vec3 radianceOf(float sum, vec2 shares) {
+    return sum * vec3(shares.x, max(1 - shares.x - shares.y, 0), shares.y);
 }
 
 Sight sightOf(Direction d, float weight, float sense, vec3 toEye) {
@@ -63,13 +99,12 @@ Sight sightOf(Direction d, float weight, float sense, vec3 toEye) {
 
 #ifdef PLAIN
 vec4 bilinear(Sight s) {
-    vec2 f = s.cell - 0.5, lower = floor(f), t = f - lower;
+    vec4 weights;
+    uvec4 e = elementsAround(s.record, s.cell, weights);
     vec4 sum = vec4(0);
     for (int i = 0; i < 4; ++i) {
-        vec2 corner = vec2(i & 1, i >> 1);
-        uint e = elementAt(s.record, lower + corner);
-        vec2 w = mix(1 - t, t, corner);
-        if (e != 0u) sum += s.weight * w.x * w.y * vec4(radianceOf(e), 1);
+        float root = rootOf(e[i]), w = e[i] != 0u ? s.weight * weights[i] : 0;
+        sum += w * vec4(radianceOf(root * root, sharesOf(e[i])), 1);
     }
     return sum;
 }
@@ -83,37 +118,97 @@ vec3 mirrorRadiance() {
     return sum.w > 0 ? sum.rgb / sum.w : vec3(0);
 }
 #else
-// The radiance where the line of sight ends as the subfield shows it, and how deep that is; `found`
-// is the sight's weight, or 0 if the subfield does not show it.
-vec3 follow(Sight s, out float depth, out float found) {
+const int kSteps = 4;
+const float kStray = 1e-4;  // weight of samples at other depths: they count where no others are
+const float kEdgeSoftness = 0.4;  // width of the blend at an edge, in votes
+
+// Depth of the first surface that the line of sight meets, cells taken as flat; where it passes
+// behind one, the depth that was seen just before. kNone where the mirror is not seen.
+float firstSurface(Sight s) {
+    float longest = float((1 << kDistanceBits) - 1);
     uint e = elementAt(s.record, s.cell);
-    found = e != 0u ? s.weight : 0;
-    depth = distanceOf(e) * s.metres;
-    for (int i = 0; i < 2; ++i) {
-        uint next = elementAt(s.record, s.cell + depth * s.drift);
-        if (next != 0u) {
-            e = next;
-            depth = distanceOf(e) * s.metres;
-            found = s.weight;
+    float seen = e != 0u ? distanceOf(e) * s.metres : kNone;
+    float stride = (e != 0u ? distanceOf(e) : longest) * s.metres / kSteps;
+    bool done = false;
+    for (int i = 1; i <= kSteps; ++i) {
+        float reached = stride * i;
+        e = elementAt(s.record, s.cell + reached * s.drift);
+        float depth = distanceOf(e) * s.metres;
+        bool past = seen != kNone && (e == 0u || depth < reached - stride - view.field.w);
+        if (!done && !past && e != 0u) seen = depth;
+        done = done || past || seen < reached + stride;
+    }
+    return seen;
+}
+
+// What the subfields show around the point of the line of sight at one depth.
+struct Layer {
+    float inverseRoot, root;  // means, of the samples at that depth
+    vec2 shares;
+    float weight;   // of all samples
+    float surface;  // of those at that depth
+    float open;     // of those that see through to something deeper
+    float behind;   // least depth of these
+};
+
+// Shares count by the root of the sum, and the sum is the power mean of the samples' with exponent
+// -1/2: a lamp's edge does not bleed.
+Layer layerAt(Sight sights[3], float depth) {
+    Layer l = Layer(0, 0, vec2(0), 0, 0, 0, kNone);
+    for (int k = 0; k < 3; ++k) {
+        Sight s = sights[k];
+        vec4 weights;
+        uvec4 around = elementsAround(s.record, s.cell + depth * s.drift, weights);
+        for (int i = 0; i < 4; ++i) {
+            uint e = around[i];
+            float w = e != 0u ? s.weight * weights[i] : 0;
+            float beyond = distanceOf(e) * s.metres - depth;
+            bool here = abs(beyond) <= view.field.w;
+            bool open = beyond > view.field.w;
+            float weight = here ? w : kStray * w;
+            float root = rootOf(e);
+            l.inverseRoot += weight / root;
+            l.root += weight * root;
+            l.shares += weight * root * sharesOf(e);
+            l.weight += weight;
+            l.surface += here ? w : 0;
+            l.open += open ? w : 0;
+            l.behind = open ? min(l.behind, depth + beyond) : l.behind;
         }
     }
-    return radianceOf(e);
+    l.inverseRoot /= max(l.weight, 1e-20);
+    l.shares /= max(l.root, 1e-20);
+    return l;
+}
+
+// How much of the line of sight ends in a layer; at an edge the samples vote.
+float coverageOf(Layer l) {
+    if (l.surface == 0) return 0;
+    float vote = l.surface / (l.surface + l.open);
+    return clamp((vote - 0.5) / kEdgeSoftness + 0.5, 0, 1);
 }
 
 vec3 mirrorRadiance() {
     vec3 toEye = normalize(view.eye.xyz - position);
     float sense = toEye.y < 0 ? -1 : 1;
     Triple t = tripleOf(sense * toEye);
-    vec3 radiance[3], depth, weight;
-    for (int k = 0; k < 3; ++k)
-        radiance[k] = follow(sightOf(t.corner[k], sqrt(sqrt(t.weight[k])), sense, toEye), depth[k],
-                             weight[k]);
-    vec3 far = mix(depth, vec3(1e30), equal(weight, vec3(0)));
-    float nearest = min(far.x, min(far.y, far.z));
-    vec3 front = weight * vec3(lessThan(far, vec3(nearest + view.field.w)));
-    float share = dot(front, vec3(1)) / max(dot(weight, vec3(1)), 1e-20);
-    vec3 chosen = share >= 0.5 ? front : weight - front;
-    vec3 sum = chosen.x * radiance[0] + chosen.y * radiance[1] + chosen.z * radiance[2];
-    return sum / max(dot(chosen, vec3(1)), 1e-20);
+    Sight sights[3];
+    vec3 depths;
+    for (int k = 0; k < 3; ++k) {
+        // Parallax is corrected: all three are nearly equally good, but fade in and out.
+        sights[k] = sightOf(t.corner[k], sqrt(sqrt(t.weight[k])), sense, toEye);
+        depths[k] = firstSurface(sights[k]);
+    }
+    float nearest = min(depths.x, min(depths.y, depths.z));
+    Layer front = layerAt(sights, nearest);
+    vec3 deeper = mix(vec3(kNone), depths, greaterThan(depths, vec3(nearest + view.field.w)));
+    float behind = min(front.behind, min(deeper.x, min(deeper.y, deeper.z)));
+    // At depth 0 all samples are stray: the plain lookup, for where there is no other.
+    Layer back = layerAt(sights, behind != kNone ? behind : 0);
+    float coverage = behind == kNone || back.weight == 0 ? 1 : coverageOf(front);
+    if (front.weight == 0) coverage = 0;
+    float inverseRoot = mix(back.inverseRoot, front.inverseRoot, coverage);
+    vec2 shares = mix(back.shares, front.shares, coverage);
+    return inverseRoot > 0 ? radianceOf(1 / (inverseRoot * inverseRoot), shares) : vec3(0);
 }
 #endif

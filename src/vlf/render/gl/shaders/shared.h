@@ -40,10 +40,11 @@ VLF_INT kViewBlock = 0;
 VLF_INT kMaterialBlock = 1;
 
 // An element of the radiance field, from the lowest bit: the distance (0: none), then the sum of
-// red, green and blue on a logarithmic scale (0: black), then the shares of red and blue in it.
-VLF_INT kDistanceBits = 11;
+// red, green and blue on a logarithmic scale, then the shares of red and blue in it.
+VLF_INT kDistanceBits = 8;
 VLF_INT kSumBits = 9;
-VLF_INT kShareBits = 6;
+VLF_INT kRedBits = 8;
+VLF_INT kBlueBits = 7;
 
 // Flags of a chart and modes of a texture in hit_surfaces.h.
 VLF_INT kPlanarChart = 1;

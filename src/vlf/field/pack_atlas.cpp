@@ -1,4 +1,4 @@
-#include "vlf/unwrap/pack_atlas.h"
+#include "vlf/field/pack_atlas.h"
 
 #include <algorithm>
 #include <cmath>

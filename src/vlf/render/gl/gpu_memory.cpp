@@ -1,0 +1,31 @@
+#include "vlf/render/gl/gpu_memory.h"
+
+#include "vlf/render/gl/radiance_layout.h"
+
+namespace vlf {
+
+std::uint64_t bytesOf(const RoomGeometry& room) {
+    return room.vertices.size() * sizeof(RoomVertex) + 4 * room.indices.size();
+}
+
+std::uint64_t textureBytes(const Scene& scene) {
+    std::uint64_t bytes = 0;
+    for (const Texture& t : scene.textures)
+        bytes +=
+            static_cast<std::uint64_t>(t.width) * t.height * (t.linear.empty() ? 4 : 6) * 4 / 3;
+    return bytes;
+}
+
+GpuMemory gpuMemoryOf(const Scene& scene, const LightField& field) {
+    const RoomGeometry room = makeRoomGeometry(scene, field);
+    const RadianceLayout layout = layOutRadiance(field.radiance, room.mirrorCharts);
+    GpuMemory memory;
+    memory.geometry = bytesOf(room);
+    memory.atlas = 4 * field.atlas.irradiance.size();
+    memory.radiance = layout.bytes();
+    memory.textures = textureBytes(scene);
+    memory.radianceElements = layout.elements;
+    return memory;
+}
+
+}  // namespace vlf
