@@ -75,10 +75,15 @@ void walk(Viewer& viewer, std::uint64_t frames) {
     using Clock = std::chrono::steady_clock;
     const ConsoleProgress interrupt(true);
     Clock::time_point last = Clock::now();
-    for (std::uint64_t i = 0; !viewer.closing() && (frames == 0 || i < frames); ++i) {
-        if (interrupt.cancelled()) break;
-        const Clock::time_point now = Clock::now();
-        viewer.frame(std::chrono::duration<double>(now - std::exchange(last, now)).count());
+    try {
+        for (std::uint64_t i = 0; !viewer.closing() && (frames == 0 || i < frames); ++i) {
+            if (interrupt.cancelled()) break;
+            const Clock::time_point now = Clock::now();
+            viewer.frame(std::chrono::duration<double>(now - std::exchange(last, now)).count());
+        }
+    } catch (...) {
+        viewer.finish();  // what was recorded is not lost
+        throw;
     }
     viewer.finish();
 }

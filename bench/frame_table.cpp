@@ -3,9 +3,9 @@
 // progressive comes to rest: frame_table FIELD [--camera NAME] [--width W] [--height H] [--frames
 // N] [--budget MS]
 
+#include "frame_timing.h"
+
 #include "vlf/io/field_file.h"
-#include "vlf/render/gl/gl_object.h"
-#include "vlf/render/gl/headless_context.h"
 #include "vlf/render/gl/progressive.h"
 
 #include <algorithm>
@@ -19,37 +19,13 @@
 namespace {
 
 using namespace vlf;
+using namespace vlf::bench;
 
 struct Options {
     std::string field, camera;
     int width = 1024, height = 768, frames = 60;
     double budget = 33;  ///< milliseconds of a call in mode progressive
 };
-
-struct Target {
-    gl::TextureObject color = gl::makeTexture(GL_TEXTURE_2D);
-    gl::TextureObject depth = gl::makeTexture(GL_TEXTURE_2D);
-    gl::Framebuffer framebuffer = gl::makeFramebuffer();
-
-    Target(int width, int height) {
-        glTextureStorage2D(color.id(), 1, GL_RGBA8, width, height);
-        glTextureStorage2D(depth.id(), 1, GL_DEPTH_COMPONENT24, width, height);
-        glNamedFramebufferTexture(framebuffer.id(), GL_COLOR_ATTACHMENT0, color.id(), 0);
-        glNamedFramebufferTexture(framebuffer.id(), GL_DEPTH_ATTACHMENT, depth.id(), 0);
-    }
-};
-
-/// Mirrors become diffuse surfaces, as the atlas has them.
-BakedRoom withoutMirrors(BakedRoom room) {
-    for (Material& material : room.scene.materials) material.mirror = Vec3(0);
-    room.field.radiance = {};
-    return room;
-}
-
-double percentile(std::vector<double> values, double part) {
-    std::sort(values.begin(), values.end());
-    return values[static_cast<std::size_t>(part * static_cast<double>(values.size() - 1))];
-}
 
 struct Way {
     const char* name;
@@ -65,12 +41,8 @@ void drawFrames(const Options& options, const Camera& camera, std::vector<Way>& 
     // In turns, so that whatever else the machine does weighs on all alike.
     for (int frame = -3; frame < options.frames; ++frame)
         for (Way& way : ways) {
-            const auto start = std::chrono::steady_clock::now();
-            way.renderer.draw(view, way.settings, target.framebuffer.id());
-            glFinish();
-            const std::chrono::duration<double, std::milli> time =
-                std::chrono::steady_clock::now() - start;
-            if (frame >= 0) way.milliseconds.push_back(time.count());
+            const double time = frameTime(way.renderer, view, way.settings, target);
+            if (frame >= 0) way.milliseconds.push_back(time);
         }
 }
 

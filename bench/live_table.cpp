@@ -67,6 +67,19 @@ Recording record(const Options& options) {
     }
 }
 
+/// Milliseconds by which the worst tick is late if this process does nothing else.
+double stallWithoutBake(double seconds) {
+    double worst = 0;
+    const Clock::time_point start = Clock::now();
+    for (Clock::time_point tick = start;
+         Clock::now() - start < std::chrono::duration<double>(seconds);
+         tick = std::max(tick + kTick, Clock::now())) {
+        std::this_thread::sleep_until(tick);
+        worst = std::max(worst, Milliseconds(Clock::now() - tick).count());
+    }
+    return worst;
+}
+
 struct Point {
     std::uint32_t triangle;
     Vec3 position;
@@ -90,9 +103,14 @@ std::vector<Point> surfacePoints(const Scene& scene) {
     return points;
 }
 
-/// √(Σ(E−E*)² / ΣE*²) of irradiance against the last arrival's, over both sides of the points.
-double difference(const std::vector<Point>& points, const Arrival& a, const Arrival& last) {
-    double squares = 0, whole = 0;
+struct Difference {
+    double rmse = 0;  // √(Σ(E−E*)² / ΣE*²)
+    double mean = 0;  // Σ|E−E*| / ΣE*: not of a few bright spots alone
+};
+
+/// Of irradiance against the last arrival's, over both sides of the points.
+Difference difference(const std::vector<Point>& points, const Arrival& a, const Arrival& last) {
+    double squares = 0, absolute = 0, truthSquares = 0, truths = 0;
     for (const Point& p : points)
         for (const auto side : {&TriangleCharts::front, &TriangleCharts::back}) {
             const std::uint32_t own = a.room->field.triangleCharts[p.triangle].*side;
@@ -104,9 +122,11 @@ double difference(const std::vector<Point>& points, const Arrival& a, const Arri
             };
             const double truth = sample(last, other), d = sample(a, own) - truth;
             squares += d * d;
-            whole += truth * truth;
+            absolute += std::abs(d);
+            truthSquares += truth * truth;
+            truths += truth;
         }
-    return std::sqrt(squares / whole);
+    return {std::sqrt(squares / truthSquares), absolute / truths};
 }
 
 const char* nameOf(LiveStage stage) {
@@ -128,15 +148,16 @@ const char* nameOf(LiveStage stage) {
 void print(const Recording& recording) {
     const Arrival& last = recording.arrivals.back();
     const std::vector<Point> points = surfacePoints(last.room->scene);
-    std::printf("%8s  %-9s %-13s %7s %6s %9s %8s\n", "seconds", "preset", "state", "sweeps",
-                "charts", "missing", "relRMSE");
-    for (const Arrival& a : recording.arrivals)
-        std::printf("%8.3f  %-9s %-13s %7d %6s %7.2f %% %6.2f %%\n", a.seconds,
+    std::printf("%8s  %-9s %-13s %7s %6s %9s %9s %9s\n", "seconds", "preset", "state", "sweeps",
+                "charts", "missing", "rel. RMSE", "rel. mean");
+    for (const Arrival& a : recording.arrivals) {
+        const Difference d = difference(points, a, last);
+        std::printf("%8.3f  %-9s %-13s %7d %6s %7.2f %% %7.2f %% %7.2f %%\n", a.seconds,
                     a.update.preset.c_str(), nameOf(a.update.stage), a.update.bounces,
-                    a.update.room ? "new" : "", 100 * a.missingLight,
-                    100 * difference(points, a, last));
-    std::printf("latest tick %.1f ms, longest poll %.3f ms\n", recording.worstStall,
-                recording.worstPoll);
+                    a.update.room ? "new" : "", 100 * a.missingLight, 100 * d.rmse, 100 * d.mean);
+    }
+    std::printf("latest tick %.1f ms (%.1f ms in a while without a bake), longest poll %.3f ms\n",
+                recording.worstStall, stallWithoutBake(last.seconds), recording.worstPoll);
 }
 
 }  // namespace

@@ -87,7 +87,7 @@ Viewer::Viewer(std::shared_ptr<const BakedRoom> room, const ViewerOptions& optio
     if (options.startChosen) here.pose.reset();
     walk_.recall(memory_.preferences(), here);
     walk_.setMode(options.mode);
-    if (session_.pose()) walk_.setMovement(Movement::fly);
+    if (session_.pose()) walk_.navigator().setMovement(Movement::fly);
     if (options.live)
         live_.emplace(*options.live, stemOf(options.file), options.output,
                       [this](const std::string& text) { announce(text); });
@@ -155,8 +155,8 @@ void Viewer::note(double pathSeconds, double cpuMs, double totalMs) {
 
 void Viewer::finish() {
     remember();
-    if (live_) live_->finish();
     session_.finish();
+    if (live_) live_->finish();
 }
 
 Steering Viewer::steering(float seconds) {
@@ -243,11 +243,19 @@ void Viewer::reloadShaders(float seconds) {
     }
 }
 
+/// A mode that this room cannot be shown in does not end the walk.
 void Viewer::drawRoom() {
+    const View view = viewOf(walk_.camera(), window_->pixelWidth(), window_->pixelHeight(),
+                             shownRoom_->renderer().nearest());
     const gl::TimedPass pass(roomTimer_);
-    shownRoom_->draw(viewOf(walk_.camera(), window_->pixelWidth(), window_->pixelHeight(),
-                            shownRoom_->renderer().nearest()),
-                     walk_.settings(), 0);
+    try {
+        shownRoom_->draw(view, walk_.settings(), 0);
+    } catch (const InputError& e) {
+        if (walk_.mode() == 0) throw;
+        walk_.setMode(0);
+        announce(e.what());
+        shownRoom_->draw(view, walk_.settings(), 0);
+    }
 }
 
 void Viewer::adaptExposure(float seconds) {

@@ -92,7 +92,9 @@ void Walkthrough::setMovement(Movement movement) {
 }
 
 void Walkthrough::setMode(std::size_t mode) {
-    mode_ = mode % kViewModes.size();
+    mode %= kViewModes.size();
+    if (mode == mode_) return;
+    mode_ = mode;
     diagramCamera_ = camera();
     say_(fmt::format("mode {}: {}", kViewModes[mode_].name, kViewModes[mode_].help));
 }

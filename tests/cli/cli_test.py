@@ -3,6 +3,7 @@
 Run as: cli_test.py PATH_OF_VLF [unittest options]
 """
 
+import csv
 import json
 import os
 import queue
@@ -110,12 +111,12 @@ class Walkthrough(Case):
         self.addCleanup(self.screen.__exit__)
         self.screen.environment["XDG_CONFIG_HOME"] = str(self.folder / "config")
 
-    def open(self, *options, size="320x240"):
+    def open(self, *options, size="320x240", file="room.vlf"):
         """Opens the window; `said` then holds the lines it prints."""
         if size:
             options = ("--size", size, *options)
         self.program = subprocess.Popen(
-            [PROGRAM, "-v", "view", "room.vlf", *options], cwd=self.folder,
+            [PROGRAM, "-v", "view", file, *options], cwd=self.folder,
             env=self.screen.environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         self.said = queue.Queue()
         reader = threading.Thread(target=self.listen, args=(self.program, self.said))
@@ -124,7 +125,7 @@ class Walkthrough(Case):
                         self.program.kill):
             self.addCleanup(cleanup)
         self.hear("H in the window")
-        self.window = self.screen.do("search", "--sync", "--onlyvisible", "--name", "room.vlf")[0]
+        self.window = self.screen.do("search", "--sync", "--onlyvisible", "--name", file)[0]
         self.screen.do("windowfocus", "--sync", self.window)
 
     @staticmethod
@@ -185,7 +186,7 @@ class Walkthrough(Case):
         for key, text in [("g", "walking"), ("g", "flying"), ("l", "plain"), ("l", "by depth"),
                           ("t", "linear"), ("t", "filmic"), ("x", "automatic"), ("x", "fixed at"),
                           ("bracketleft", "field of view"), ("Next", "field of view"),
-                          ("m", "mode field"), ("n", "no bookmarks"), ("b", "place 1 added"),
+                          ("n", "no bookmarks"), ("b", "place 1 added"),
                           ("n", "bookmark place 1"), ("c", "captured"), ("Escape", "mouse free"),
                           ("F11", "full screen"), ("F11", "window"), ("0", "start")]:
             self.press(key, text)
@@ -274,6 +275,53 @@ class Walkthrough(Case):
             "vec4 outputColor(vec3 radiance) { return vec4(1, 0, 0, 1); }")
         self.hear("shaders reloaded")
         self.assertNotEqual(start, self.picture())
+
+    def test_every_mode_shows_something_else(self):
+        self.open("--fresh", "--camera", "inside")
+        pictures = [self.picture()]
+        for mode in ["progressive", "raytraced", "wireframe", "normals", "directions", "subfield",
+                     "tile", "chart", "field"]:
+            self.press("m", f"mode {mode}")
+            pictures.append(self.picture())
+        self.assertEqual(pictures[0], pictures[-1])
+        # Without mirrors there is nothing to trace.
+        self.assertEqual(pictures[0], pictures[2])
+        self.assertGreaterEqual(len(set(pictures)), 8)
+        self.close()
+
+    def test_replays_are_equal_frame_by_frame(self):
+        self.open("--fresh", "--record", "walk.json")
+        self.screen.do("keydown", "w", "sleep", "0.5", "keyup", "w")
+        self.close()
+        path = self.json("walk.json")["camera"]
+        self.assertNotEqual(path[0]["eye"], path[-1]["eye"])
+        for log in ["a.csv", "b.csv"]:
+            self.open("--fresh", "--replay", "walk.json", "--fps", "20", "--log", log)
+            self.assertEqual(self.program.wait(timeout=60), 0)
+        rows = [[[row[c] for c in row if not c.endswith("_ms")]
+                 for row in csv.DictReader((self.folder / log).read_text().splitlines())]
+                for log in ["a.csv", "b.csv"]]
+        self.assertEqual(rows[0], rows[1])
+        self.assertGreater(len(rows[0]), 5)
+        self.assertEqual(float(rows[0][2][1]), 0.1)
+
+    def test_a_scene_is_baked_while_it_is_shown(self):
+        self.open("--fresh", "--preset", "draft", "-o", "live.vlf", "--mode", "field",
+                  file="cornell.obj")
+        self.hear("live.vlf written, preset draft")
+        self.run_vlf("bake", "cornell.obj", "-o", "room.vlf", "--preset", "draft")
+        self.assertEqual((self.folder / "live.vlf").read_bytes(),
+                         (self.folder / "room.vlf").read_bytes())
+        first = self.picture()
+        mtl = self.folder / "cornell.mtl"
+        mtl.write_text(mtl.read_text().replace("Kd 0.63", "Kd 0.03"))
+        self.screen.do("sleep", "4")
+        self.assertNotEqual(first, self.picture(), "the wall is another colour")
+        self.close()
+
+    def test_a_scene_that_cannot_be_read_opens_no_window(self):
+        self.run_vlf("view", "none.obj", code=BAD_INPUT, says=["none.obj"])
+        self.run_vlf("view", "room.vlf", "--preset", "draft", code=USAGE, says=["baked already"])
 
     def test_it_closes_after_so_many_frames(self):
         done = subprocess.run([PROGRAM, "-q", "view", "room.vlf", "--frames", "3", "--no-vsync",

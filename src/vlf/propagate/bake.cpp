@@ -135,7 +135,8 @@ BakeState makeState(const Scene& scene, const BakeParams& params, Progress& prog
     BakeState state(scene, params);
     state.frame = frameOf(scene);
     state.unwrap = timed(state.report, progress, "charts", [&] {
-        return unwrap(scene, state.rays, {params.texelSize, params.texelBudget, params.seed});
+        return unwrap(scene, state.rays, {params.texelSize, params.texelBudget, params.seed},
+                      progress);
     });
     state.report.texels = state.unwrap.texels.size();
     state.faces = makeBundleFaces(scene, state.unwrap, state.frame);
@@ -158,6 +159,14 @@ LightField unlitField(const BakeState& state) {
     field.frame = state.frame;
     field.charts = state.unwrap.charts;
     field.triangleCharts = state.unwrap.triangleCharts;
+    BakeRecord& r = field.record;
+    r.preset = state.params.preset;
+    r.instructionSet = currentInstructionSet();
+    r.seed = state.params.seed;
+    r.directions = state.params.directions;
+    r.cells = state.params.cells;
+    r.texelSize = state.unwrap.texelSize;
+    r.directSamples = state.params.directSamples;
     return field;
 }
 
@@ -167,16 +176,9 @@ LightField finish(BakeState& state, Progress& progress) {
     addRadianceField(state, field, progress);
     state.report.energy = energyBalance(state);
     BakeRecord& r = field.record;
-    r.preset = state.params.preset;
-    r.instructionSet = currentInstructionSet();
-    r.seed = state.params.seed;
-    r.directions = state.params.directions;
-    r.cells = state.params.cells;
     r.radianceDirections = field.radiance.lines;
     r.radianceCells = field.radiance.cells;
     r.tileSize = field.radiance.tileSize;
-    r.texelSize = state.unwrap.texelSize;
-    r.directSamples = state.params.directSamples;
     r.bounces = state.report.sweeps;
     r.residual = state.report.residual;
     r.energy = state.report.energy;

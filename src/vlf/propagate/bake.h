@@ -102,7 +102,8 @@ void propagateOnce(BakeState& state, int directions, int cells, int sweep, Progr
 /// params.maxBounces), then one fine one.
 void propagate(BakeState& state, Progress& progress, const BakeObserver& observe = unobserved);
 
-/// Where the state's light field lies and its charts, without light (see fillAtlas) and record.
+/// Where the state's light field lies, its charts and of its record the parameters; no light (see
+/// fillAtlas).
 LightField unlitField(const BakeState& state);
 
 /// The light field of the present solution.

@@ -155,9 +155,10 @@ class DirectGatherer {
 
     Point surfacePoint(const Receiver& r, std::size_t i) const {
         const SurfacePoint& p = r.points[i];
+        const Vec3 geometric = r.side * geometricNormal(scene_, p.triangle);
+        const Vec3 shading = shadingNormalAt(scene_, p.triangle, p.barycentric);
         return {positionAt(scene_, p.triangle, p.barycentric),
-                r.side * shadingNormalAt(scene_, p.triangle, p.barycentric),
-                r.side * geometricNormal(scene_, p.triangle)};
+                glm::dot(shading, geometric) < 0 ? -shading : shading, geometric};
     }
 
     /// Irradiance from one image by n samples.

@@ -130,9 +130,11 @@ void findProxies(Unwrap& result) {
             }
 }
 
-void findTexels(const Scene& scene, const RayScene& rays, Unwrap& result) {
+void findTexels(const Scene& scene, const RayScene& rays, Unwrap& result, Progress& progress) {
     coverTexels(scene, result);
+    progress.check();
     dropBuriedPoints(scene, rays, result);
+    progress.check();
     findProxies(result);
 }
 
@@ -166,25 +168,33 @@ bool refineDivided(const Unwrap& u, const std::vector<ChartGroup>& groups,
 
 }  // namespace
 
-Unwrap unwrap(const Scene& scene, const RayScene& rays, const UnwrapParams& params) {
+Unwrap unwrap(const Scene& scene, const RayScene& rays, const UnwrapParams& params,
+              Progress& progress) {
     Unwrap result;
     result.texelSize =
         params.texelSize > 0 ? params.texelSize : texelSizeForBudget(scene, params.texelBudget);
     checkSize(scene, result.texelSize);
     const std::vector<ChartGroup> groups = groupTriangles(scene, result.texelSize);
     const std::vector<std::uint32_t> groupOf = groupOfTriangles(groups, scene.triangles.size());
+    progress.check();
     const std::vector<OpenSides> sides = findOpenSides(scene, rays, groups, groupOf, params.seed);
     std::vector<float> sizes = texelSizes(scene, groups, result.texelSize);
     for (int refinements = 0;; ++refinements) {
+        progress.check();
         layOutCharts(scene, groups, sides, sizes, result);
         const AtlasSize size = packCharts(result.charts);
         result.atlasWidth = size.width;
         result.atlasHeight = size.height;
-        findTexels(scene, rays, result);
+        findTexels(scene, rays, result, progress);
         if (refinements == kRefinements || !refineDivided(result, groups, sizes)) break;
     }
     result.seams = findSeams(scene, rays, result);
     return result;
+}
+
+Unwrap unwrap(const Scene& scene, const RayScene& rays, const UnwrapParams& params) {
+    Progress uninterrupted;
+    return unwrap(scene, rays, params, uninterrupted);
 }
 
 Unwrap restoreUnwrap(const Scene& scene, const RayScene& rays, const std::vector<Chart>& charts,
@@ -196,7 +206,8 @@ Unwrap restoreUnwrap(const Scene& scene, const RayScene& rays, const std::vector
     result.atlasHeight = atlas.height;
     for (const Chart& chart : charts)
         result.texelSize = std::max(result.texelSize, chart.texelSize());
-    findTexels(scene, rays, result);
+    Progress uninterrupted;
+    findTexels(scene, rays, result, uninterrupted);
     return result;
 }
 

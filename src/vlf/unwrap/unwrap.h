@@ -2,6 +2,7 @@
 // Charts and texels of a scene: every surface that light can reach gets a place in the irradiance
 // atlas.
 
+#include "vlf/base/progress.h"
 #include "vlf/field/chart.h"
 #include "vlf/scene/scene.h"
 #include "vlf/trace/ray_scene.h"
@@ -62,7 +63,11 @@ struct UnwrapParams {
     std::uint64_t seed = 0;
 };
 
-/// Throws InputError if the scene would need more than 2^28 texels.
+/// Throws InputError if the scene would need more than 2^28 texels, Cancelled.
+Unwrap unwrap(const Scene& scene, const RayScene& rays, const UnwrapParams& params,
+              Progress& progress);
+
+/// The same, for whoever will not cancel it.
 Unwrap unwrap(const Scene& scene, const RayScene& rays, const UnwrapParams& params);
 
 /// The texels of a finished field, from its charts: for measuring it. Seams are left out.

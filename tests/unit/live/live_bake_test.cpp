@@ -152,7 +152,7 @@ TEST_F(LiveBakeTest, LightFitsTheChartsItComesWith) {
 }
 
 TEST_F(LiveBakeTest, EndsWithTheBitsOfABakeAndAFileOfThem) {
-    const std::string file = writeExample("mirror-room", {.triangles = 200});
+    const std::string file = writeExample("mirror-room", {.triangles = 1000});
     LiveBake live({file}, quickParams(), quickOptions());
     const std::vector<LiveUpdate> updates = updatesOf(live);
     ASSERT_TRUE(live.finished());

@@ -93,6 +93,17 @@ TEST(DirectLight, OfAnUnoccludedLampIsItsFormFactor) {
               2e-3);
 }
 
+TEST(DirectLight, DoesNotMindNormalsThatPointBehindTheSurface) {
+    SceneBuilder b;
+    b.quad(Vec3(0), {0, 0, 4}, {4, 0, 0}, b.material("floor", Vec3(0.5f)));
+    addLamp(b, kCeilingLamp);
+    Scene scene = b.scene();
+    for (Vec3& normal : scene.normals) normal = -normal;
+    const Lit lit(scene, 0.2f, 16);
+    EXPECT_LT(lit.largestError([](const Vec3& p) { return irradianceFrom(kCeilingLamp, p, kUp); }),
+              2e-3);
+}
+
 TEST(DirectLight, AgreesWithTheClosedFormBelowACorner) {
     SceneBuilder b;
     b.quad({-0.01f, 0, -0.01f}, {0, 0, 0.02f}, {0.02f, 0, 0}, b.material("floor", Vec3(0.5f)));
