@@ -7,6 +7,7 @@
 #include "vlf/base/error.h"
 #include "vlf/display/camera_path_file.h"
 #include "vlf/display/frame_log.h"
+#include "vlf/display/time_statistics.h"
 
 #include <algorithm>
 #include <chrono>

@@ -47,7 +47,7 @@ std::string bytes(std::uint64_t count) {
 
 void drawGraph(const FrameStatistics& frames) {
     const std::vector<float> times = frames.milliseconds();
-    const auto most = static_cast<float>(1.5e3 * frames.percentile(0.99));
+    const auto most = static_cast<float>(1.5e3 * frames.times().p99);
     ImGui::PlotLines("##frames", times.data(), static_cast<int>(times.size()), 0,
                      fmt::format("ms, 0 to {:.0f}", most).c_str(), 0, most,
                      {20 * ImGui::GetFontSize(), kGraphLines * ImGui::GetTextLineHeight()});
@@ -107,8 +107,8 @@ void drawStatistics(const FrameStatistics& frames, const PassTimes& passes,
         drawGraph(frames);
         if (ImGui::BeginTable("numbers", 2, ImGuiTableFlags_SizingFixedFit)) {
             label("frames a second", fmt::format("{:.1f}", frames.rate()));
-            label("median frame", fmt::format("{:.2f} ms", 1e3 * frames.percentile(0.5)));
-            label("99 in 100 within", fmt::format("{:.2f} ms", 1e3 * frames.percentile(0.99)));
+            label("median frame", fmt::format("{:.2f} ms", 1e3 * frames.times().median));
+            label("99 in 100 within", fmt::format("{:.2f} ms", 1e3 * frames.times().p99));
             for (const auto& [name, time] : passes)
                 label("GPU " + name, time ? fmt::format("{:.2f} ms", *time) : "-");
             label("GPU memory", bytes(memory.total()));

@@ -31,8 +31,13 @@ bool Session::over() const {
     return path_ && !options_.loop && seconds_ > path_->duration();
 }
 
-void Session::note(const FrameRecord& frame) {
-    if (!options_.record.empty()) recorder_.record(seconds_, frame.pose);
+void Session::note(const FrameRecord& frame, bool jumped) {
+    if (!options_.record.empty()) {
+        if (jumped)
+            recorder_.jump(seconds_, frame.pose);
+        else
+            recorder_.record(seconds_, frame.pose);
+    }
     if (!options_.log.empty()) log_.add(frame);
 }
 

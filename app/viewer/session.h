@@ -32,8 +32,9 @@ class Session {
     /// The path that was followed has ended.
     bool over() const;
 
-    /// What the frame has shown and taken. Of its passes: the room, what lies over it.
-    void note(const FrameRecord& frame);
+    /// What the frame has shown and taken. Of its passes: the room, what lies over it. `jumped`:
+    /// the walker did not go there from where he was.
+    void note(const FrameRecord& frame, bool jumped);
 
     /// Writes what was recorded. Throws FileError.
     void finish() const;

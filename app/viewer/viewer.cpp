@@ -152,7 +152,7 @@ void Viewer::note(double pathSeconds, double cpuMs, double totalMs) {
     frame.totalMs = totalMs;
     frame.passMs = {room.value_or(0), overlay.value_or(0)};
     frame.pose = walk_.navigator().pose();
-    session_.note(frame);
+    session_.note(frame, walk_.jumped());
 }
 
 void Viewer::finish() {

@@ -61,12 +61,14 @@ RenderSettings Walkthrough::settings() const {
 
 void Walkthrough::reset() {
     navigator().setPose(poseOf(start_));
+    jumped_ = true;
     exposure_ = Exposure(exposureOf(ground_->room->field.atlas));
     say_("start");
 }
 
 void Walkthrough::goTo(const CameraPose& pose, const std::string& name) {
     navigator().setPose(pose);
+    jumped_ = true;
     say_(name);
 }
 

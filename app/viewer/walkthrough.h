@@ -41,6 +41,9 @@ class Walkthrough {
     LookupKind lookup() const { return lookup_; }
     ToneCurve tone() const { return tone_; }
 
+    /// Whether the walker has been put somewhere since the last call.
+    bool jumped() { return std::exchange(jumped_, false); }
+
     void reset();
     void goTo(const CameraPose& pose, const std::string& name);
     void goToCamera(std::size_t number);  ///< none of that number: does nothing
@@ -72,6 +75,7 @@ class Walkthrough {
     Exposure exposure_;
     std::vector<Bookmark> bookmarks_;
     std::size_t nextBookmark_ = 0;
+    bool jumped_ = false;
     std::size_t mode_ = 0;
     Camera diagramCamera_;  ///< from where the diagram was asked for
     LookupKind lookup_ = LookupKind::depthCorrected;

@@ -292,9 +292,14 @@ class Walkthrough(Case):
     def test_replays_are_equal_frame_by_frame(self):
         self.open("--fresh", "--record", "walk.json")
         self.screen.do("keydown", "w", "sleep", "0.5", "keyup", "w")
+        self.press("2", "camera inside")
+        self.screen.do("sleep", "0.3")
         self.close()
         path = self.json("walk.json")["camera"]
         self.assertNotEqual(path[0]["eye"], path[-1]["eye"])
+        shortest = min(zip(path, path[1:]), key=lambda p: p[1]["seconds"] - p[0]["seconds"])
+        self.assertLess(shortest[1]["seconds"] - shortest[0]["seconds"], 1e-4, "a jump")
+        self.assertNotEqual(shortest[0]["eye"], shortest[1]["eye"])
         for log in ["a.csv", "b.csv"]:
             self.open("--fresh", "--replay", "walk.json", "--fps", "20", "--log", log)
             self.assertEqual(self.program.wait(timeout=60), 0)

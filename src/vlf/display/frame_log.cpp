@@ -3,9 +3,7 @@
 #include "vlf/base/error.h"
 #include "vlf/base/file.h"
 
-#include <algorithm>
 #include <cassert>
-#include <cmath>
 #include <filesystem>
 
 #include <fmt/format.h>
@@ -20,25 +18,11 @@ std::string milliseconds(double ms) {
     return fmt::format("{:.4f}", ms);
 }
 
-/// Quantile q of sorted times.
-double quantile(const std::vector<double>& sorted, double q) {
-    const double place = q * static_cast<double>(sorted.size() - 1);
-    const auto below = static_cast<std::size_t>(place);
-    const std::size_t above = std::min(below + 1, sorted.size() - 1);
-    return std::lerp(sorted[below], sorted[above], place - static_cast<double>(below));
-}
-
 std::string extensionOf(const std::string& file) {
     return std::filesystem::path(file).extension().string();
 }
 
 }  // namespace
-
-TimeStatistics statisticsOf(std::vector<double> times) {
-    if (times.empty()) return {};
-    std::sort(times.begin(), times.end());
-    return {quantile(times, 0.5), quantile(times, 0.95), quantile(times, 0.99), times.back()};
-}
 
 void FrameLog::add(FrameRecord frame) {
     assert(frame.passMs.size() == passes_.size());

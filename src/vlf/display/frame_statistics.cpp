@@ -1,8 +1,5 @@
 #include "vlf/display/frame_statistics.h"
 
-#include <algorithm>
-#include <cmath>
-
 namespace vlf {
 
 void FrameStatistics::add(double seconds) {
@@ -18,14 +15,8 @@ double FrameStatistics::rate() const {
     return sum_ > 0 ? static_cast<double>(frames_.size()) / sum_ : 0;
 }
 
-double FrameStatistics::percentile(double part) const {
-    if (frames_.empty()) return 0;
-    std::vector<double> sorted(frames_.begin(), frames_.end());
-    const auto at =
-        static_cast<std::size_t>(std::lround(part * static_cast<double>(sorted.size() - 1)));
-    std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(at),
-                     sorted.end());
-    return sorted[at];
+TimeStatistics FrameStatistics::times() const {
+    return statisticsOf({frames_.begin(), frames_.end()});
 }
 
 std::vector<float> FrameStatistics::milliseconds() const {

@@ -1,6 +1,8 @@
 #pragma once
 // How long the last frames took.
 
+#include "vlf/display/time_statistics.h"
+
 #include <deque>
 #include <vector>
 
@@ -15,7 +17,7 @@ class FrameStatistics {
 
     bool empty() const { return frames_.empty(); }
     double rate() const;                      ///< frames a second; 0: none yet
-    double percentile(double part) const;     ///< seconds; `part` in [0, 1]; 0: none yet
+    TimeStatistics times() const;             ///< of the frames, s
     std::vector<float> milliseconds() const;  ///< of each frame, oldest first
 
   private:

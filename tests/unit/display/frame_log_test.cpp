@@ -1,4 +1,5 @@
 #include "vlf/display/frame_log.h"
+#include "vlf/display/time_statistics.h"
 
 #include "vlf/base/error.h"
 #include "vlf/base/file.h"
