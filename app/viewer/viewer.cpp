@@ -150,7 +150,7 @@ void Viewer::note(double pathSeconds, double cpuMs, double totalMs) {
     frame.cpuMs = cpuMs;
     if (room && overlay) frame.gpuMs = *room + *overlay;
     frame.totalMs = totalMs;
-    frame.passMs = {room.value_or(0), overlay.value_or(0)};
+    frame.passMs = {room, overlay};
     frame.pose = walk_.navigator().pose();
     session_.note(frame, walk_.jumped());
 }

@@ -14,8 +14,9 @@ namespace {
 
 constexpr double kDegrees = 180.0 / kPi;
 
-std::string milliseconds(double ms) {
-    return fmt::format("{:.4f}", ms);
+/// Empty if it was not measured.
+std::string milliseconds(std::optional<double> ms) {
+    return ms ? fmt::format("{:.4f}", *ms) : std::string();
 }
 
 std::string extensionOf(const std::string& file) {
@@ -41,9 +42,9 @@ std::vector<std::string> FrameLog::columns() const {
 std::vector<std::string> FrameLog::cells(std::size_t frame) const {
     const FrameRecord& f = frames_[frame];
     std::vector<std::string> row{fmt::format("{}", frame), fmt::format("{:.6f}", f.pathSeconds),
-                                 milliseconds(f.cpuMs), f.gpuMs ? milliseconds(*f.gpuMs) : "",
+                                 milliseconds(f.cpuMs), milliseconds(f.gpuMs),
                                  milliseconds(f.totalMs)};
-    for (const double ms : f.passMs) row.push_back(milliseconds(ms));
+    for (const std::optional<double>& ms : f.passMs) row.push_back(milliseconds(ms));
     for (int axis = 0; axis < 3; ++axis) row.push_back(fmt::format("{}", f.pose.eye[axis]));
     row.push_back(fmt::format("{:.5f}", kDegrees * f.pose.yaw));
     row.push_back(fmt::format("{:.5f}", kDegrees * f.pose.pitch));

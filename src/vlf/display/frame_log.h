@@ -13,11 +13,11 @@ namespace vlf {
 
 /// Times in milliseconds.
 struct FrameRecord {
-    double pathSeconds = 0;       ///< time on the camera's path, s
-    double cpuMs = 0;             ///< until the frame was drawn or handed to the GPU
-    std::optional<double> gpuMs;  ///< of the GPU's work, where it is measured
-    double totalMs = 0;           ///< from the frame's start to its end
-    std::vector<double> passMs;   ///< one per pass of the log
+    double pathSeconds = 0;                     ///< time on the camera's path, s
+    double cpuMs = 0;                           ///< until the frame was drawn or handed to the GPU
+    std::optional<double> gpuMs;                ///< of the GPU's work, where it is measured
+    double totalMs = 0;                         ///< from the frame's start to its end
+    std::vector<std::optional<double>> passMs;  ///< one per pass of the log, where measured
     CameraPose pose;
 };
 
