@@ -357,6 +357,21 @@ class NoScreen(Case):
         self.assertEqual(done.returncode, FAILED)
         self.assertIn("vlf render", done.stderr)
 
+    def test_a_driver_without_opengl_4_5_is_an_error_with_advice(self):
+        self.bake("room.vlf")
+        old = {"MESA_GL_VERSION_OVERRIDE": "4.3"}
+        done = subprocess.run([PROGRAM, "render", "room.vlf", "--backend", "gl", "-o", "a.png"],
+                              cwd=self.folder, env=dict(os.environ, **old), capture_output=True,
+                              text=True, timeout=60)
+        self.assertEqual(done.returncode, FAILED)
+        self.assertIn("--backend cpu", done.stderr)
+        with Screen() as screen:
+            done = subprocess.run([PROGRAM, "view", "room.vlf", "--fresh"], cwd=self.folder,
+                                  env=dict(screen.environment, **old), capture_output=True,
+                                  text=True, timeout=60)
+        self.assertEqual(done.returncode, FAILED)
+        self.assertIn("vlf render", done.stderr)
+
 
 class Pipeline(Case):
     def test_both_backends_draw_the_same_picture(self):
