@@ -324,6 +324,12 @@ class Walkthrough(Case):
         self.assertNotEqual(first, self.picture(), "the wall is another colour")
         self.close()
 
+    def test_the_window_closes_while_it_bakes(self):
+        self.open("--fresh", "--preset", "high", "--texel", "0.01", file="cornell.obj")
+        start = time.monotonic()
+        self.close()
+        self.assertLess(time.monotonic() - start, 10)
+
     def test_a_scene_that_cannot_be_read_opens_no_window(self):
         self.run_vlf("view", "none.obj", code=BAD_INPUT, says=["none.obj"])
         self.run_vlf("view", "room.vlf", "--preset", "draft", code=USAGE, says=["baked already"])
