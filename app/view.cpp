@@ -101,13 +101,13 @@ void open(std::shared_ptr<const BakedRoom> room, const ViewerOptions& options,
 
 /// Waits for the first state of a live bake that can be shown. Throws InputError if its files
 /// cannot be read, and Cancelled.
-std::shared_ptr<const BakedRoom> firstRoom(LiveBake& bake, const Globals& globals) {
+LiveUpdate firstRoom(LiveBake& bake, const Globals& globals) {
     ConsoleProgress progress(globals.quiet);
     std::string activity;
     for (;; std::this_thread::sleep_for(std::chrono::milliseconds(5))) {
         progress.check();
         const std::optional<LiveUpdate> update = bake.poll();
-        if (update && update->room) return update->room;
+        if (update && update->room) return *update;
         const LiveStatus status = bake.status();
         if (!status.error.empty()) throw InputError(status.error);
         if (status.activity != activity) progress.stage(activity = status.activity);
@@ -120,11 +120,12 @@ void viewScene(const Options& options, const Globals& globals) {
     LiveOptions live;
     live.programVersion = VLF_VERSION;
     LiveBake bake(options.files, bakeParams(options.quality, globals), live);
-    std::shared_ptr<const BakedRoom> room = firstRoom(bake, globals);
+    const LiveUpdate first = firstRoom(bake, globals);
     for (const std::string& warning : bake.status().warnings) printWarning(globals.quiet, warning);
-    ViewerOptions viewer = viewerOptions(options, globals, room->scene);
+    ViewerOptions viewer = viewerOptions(options, globals, first.room->scene);
     viewer.live = &bake;
-    open(std::move(room), viewer, options.frames);
+    viewer.light = first.irradiance;
+    open(first.room, viewer, options.frames);
 }
 
 void viewField(const Options& options, const Globals& globals) {

@@ -90,6 +90,7 @@ Viewer::Viewer(std::shared_ptr<const BakedRoom> room, const ViewerOptions& optio
     walk_.recall(memory_.preferences(), here);
     walk_.setMode(options.mode);
     if (session_.pose()) walk_.navigator().setMovement(Movement::fly);
+    if (options.light) shownRoom_->renderer().updateIrradiance(*options.light);
     if (options.live)
         live_.emplace(*options.live, stemOf(options.file), options.output,
                       [this](const std::string& text) { announce(text); });

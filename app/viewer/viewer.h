@@ -30,9 +30,10 @@ struct ViewerOptions {
     RendererOptions renderer;    ///< its shader folder is watched for changes
     std::size_t mode = 0;        ///< of kViewModes
     SessionOptions session;
-    LiveBake* live = nullptr;  ///< bakes the room; must outlive the viewer
-    std::string output;        ///< of the live bake, see LiveView
-    std::string preferences;   ///< file; empty: remembers nothing
+    LiveBake* live = nullptr;                      ///< bakes the room; must outlive the viewer
+    std::shared_ptr<const IrradianceAtlas> light;  ///< in place of the room's own; null: that
+    std::string output;                            ///< of the live bake, see LiveView
+    std::string preferences;                       ///< file; empty: remembers nothing
     bool quiet = false;
     bool verbose = false;  ///< prints what keys have done
 };
