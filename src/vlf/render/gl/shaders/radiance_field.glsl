@@ -1,5 +1,6 @@
 // What a mirror shows, by lookup in the radiance field: the same few steps for every pixel of every
-// scene. field/radiance_field.h says what is stored, packed_radiance.h how.
+// scene. field/radiance_field.h says what is stored, packed_radiance.h and
+// radiance_layout.h how.
 
 layout(binding = kElementUnit) uniform usamplerBuffer elements;
 layout(binding = kRecordUnit) uniform usamplerBuffer records;
