@@ -33,8 +33,8 @@ struct Hit {
 /// Instruction set of the kernels: part of what makes a result reproducible.
 enum class RayIsa { automatic, sse42, avx2, avx512 };
 
-/// Distance by which a ray's origin is to be moved off a surface it starts on, in metres: grows with
-/// the scene and with its distance from the world's origin.
+/// Distance by which a ray's origin is to be moved off a surface it starts on, in metres: grows
+/// with the scene and with its distance from the world's origin.
 float rayEpsilon(const Scene& scene);
 
 /// Acceleration structure over all triangles of a scene. Immutable and safe to use from several
@@ -61,6 +61,7 @@ class RayScene {
     float epsilon() const;
 
   private:
+    friend class RayInstances;
     struct Impl;
     std::unique_ptr<Impl> impl_;
 };

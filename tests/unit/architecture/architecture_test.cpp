@@ -30,8 +30,9 @@ const std::map<std::string, std::set<std::string>> kArrows{
     {"unwrap", {"scene", "trace", "field"}},
     {"propagate", {"scene", "trace", "field", "unwrap"}},
     {"io", {"scene", "field", "image"}},
-    {"render", {"scene", "trace", "field", "image"}},
-    {"display", {"scene", "trace", "image", "render"}},
+    {"dynamic", {"scene", "trace", "field", "unwrap", "propagate"}},
+    {"render", {"scene", "trace", "field", "image", "dynamic"}},
+    {"display", {"scene", "trace", "image", "render", "dynamic"}},
     {"live", {"scene", "field", "propagate", "io"}},
 };
 

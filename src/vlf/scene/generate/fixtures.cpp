@@ -50,15 +50,19 @@ void addCeilingLight(SceneBuilder& builder, const std::string& name, float width
     builder.addBox({-x, y, -z}, {x, 0, z}, {casing, casing, emitter, kLeaveOut, casing, casing});
 }
 
-void addStatue(SceneBuilder& builder, int triangles, MaterialId material, MaterialId pin) {
-    constexpr float kCentre = 0.66f, kPinTop = 0.12f, kLengthToGirth = 8;
+void addKnot(SceneBuilder& builder, int triangles, MaterialId material, const Vec3& centre) {
+    constexpr float kLengthToGirth = 8;
     const float quads = 0.5f * static_cast<float>(triangles);
     const int nv = static_cast<int>(std::lround(std::sqrt(quads / kLengthToGirth)));
     const int nu = static_cast<int>(std::lround(quads / static_cast<float>(nv)));
-    builder.beginMesh("statue");
     builder.addTorus(
-        nu, nv, [&](float u, float v) { return knotSurface(u, v) + Vec3(0, kCentre, 0); },
-        material);
+        nu, nv, [&](float u, float v) { return knotSurface(u, v) + centre; }, material);
+}
+
+void addStatue(SceneBuilder& builder, int triangles, MaterialId material, MaterialId pin) {
+    constexpr float kCentre = 0.66f, kPinTop = 0.12f;
+    builder.beginMesh("statue");
+    addKnot(builder, triangles, material, Vec3(0, kCentre, 0));
     builder.beginMesh("statue-pin");
     const std::array<Vec2, 3> profile{Vec2(0.02f, 0), Vec2(0.02f, kPinTop), Vec2(0, kPinTop)};
     builder.addLathe(profile, 12, pin);

@@ -20,6 +20,10 @@ void addFramedPanel(SceneBuilder& builder, const std::string& name, float width,
 void addCeilingLight(SceneBuilder& builder, const std::string& name, float width, float depth,
                      MaterialId emitter, MaterialId casing);
 
+/// A bumpy torus knot of about `triangles`, 1.1 m high and wide.
+void addKnot(SceneBuilder& builder, int triangles, MaterialId material,
+             const Vec3& centre = Vec3(0));
+
 /// A bumpy torus knot about 1.1 m high and wide on a pin, above the local origin. `triangles`
 /// within a percent. Starts the meshes "statue" and "statue-pin".
 void addStatue(SceneBuilder& builder, int triangles, MaterialId material, MaterialId pin);

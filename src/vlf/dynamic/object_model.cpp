@@ -1,0 +1,61 @@
+#include "vlf/dynamic/object_model.h"
+
+#include "vlf/base/error.h"
+#include "vlf/dynamic/subdivide.h"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+namespace vlf {
+
+namespace {
+
+constexpr std::size_t kMaxTriangles = std::size_t{1} << 26;
+
+/// Whether every edge, its ends told by position, is of one triangle each way.
+bool isClosed(const Scene& scene) {
+    const auto less = [](const Vec3& a, const Vec3& b) {
+        return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
+    };
+    std::map<Vec3, int, decltype(less)> ids(less);
+    std::map<std::pair<int, int>, int> balance;
+    for (const Triangle& t : scene.triangles)
+        for (int c = 0; c < 3; ++c) {
+            const auto id = [&](int corner) {
+                return ids
+                    .try_emplace(scene.positions[t.vertex[corner % 3]],
+                                 static_cast<int>(ids.size()))
+                    .first->second;
+            };
+            const int a = id(c), b = id(c + 1);
+            balance[std::minmax(a, b)] += a < b ? 1 : -1;
+        }
+    return std::all_of(balance.begin(), balance.end(), [](const auto& e) { return e.second == 0; });
+}
+
+}  // namespace
+
+ObjectMesh::ObjectMesh(Scene mesh) : scene(std::move(mesh)), rays(scene), closed(isClosed(scene)) {}
+
+ObjectModel::ObjectModel(Scene scene) {
+    if (scene.triangles.empty()) throw InputError("an object needs at least one triangle");
+    bounds_ = boundingSphere(scene);
+    emits_ = hasEmitter(scene);
+    base_ = std::make_unique<const ObjectMesh>(std::move(scene));
+}
+
+const ObjectMesh& ObjectModel::mesh(int subdivision) const {
+    if (subdivision <= 0) return *base_;
+    const int level = std::min(subdivision, kMaxSubdivision);
+    if (scene().triangles.size() << (2 * level) > kMaxTriangles)
+        throw InputError("the object is too fine already to be subdivided " +
+                         std::to_string(level) + " times");
+    const ObjectMesh& coarser = mesh(level - 1);
+    const std::lock_guard lock(mutex_);
+    auto& made = subdivided_[static_cast<std::size_t>(level - 1)];
+    if (!made) made = std::make_unique<const ObjectMesh>(subdivide(coarser.scene));
+    return *made;
+}
+
+}  // namespace vlf

@@ -1,0 +1,54 @@
+#pragma once
+// A mesh that is to move about in a baked room, in its own space.
+
+#include "vlf/scene/scene.h"
+#include "vlf/trace/ray_scene.h"
+
+#include <array>
+#include <memory>
+#include <mutex>
+
+namespace vlf {
+
+/// A mesh ready to be lit and traced, in the model's space.
+struct ObjectMesh {
+    Scene scene;
+    RayScene rays;
+    bool closed = true;  ///< every edge is of two triangles: light meets front sides only
+
+    explicit ObjectMesh(Scene mesh);
+
+    /// Places in a list of irradiances by vertex: those of the front sides and, unless the mesh is
+    /// closed, as many of the back sides.
+    std::size_t sidedVertexCount() const { return scene.positions.size() * (closed ? 1 : 2); }
+};
+
+/// Immutable but for meshes made when first asked for; safe to use from several threads.
+class ObjectModel {
+  public:
+    static constexpr int kMaxSubdivision = 3;
+
+    /// `scene` is any imported scene; its cameras are ignored. Throws InputError if it has no
+    /// triangle.
+    explicit ObjectModel(Scene scene);
+
+    const Scene& scene() const { return base_->scene; }
+
+    /// Of its vertices, about the middle of its box.
+    const Sphere& bounds() const { return bounds_; }
+
+    bool emits() const { return emits_; }
+
+    /// The mesh with every edge cut in half `subdivision` times, in [0, kMaxSubdivision]. Throws
+    /// InputError if it would have more than 2^26 triangles.
+    const ObjectMesh& mesh(int subdivision = 0) const;
+
+  private:
+    std::unique_ptr<const ObjectMesh> base_;
+    Sphere bounds_;
+    bool emits_ = false;
+    mutable std::mutex mutex_;
+    mutable std::array<std::unique_ptr<const ObjectMesh>, kMaxSubdivision> subdivided_;
+};
+
+}  // namespace vlf

@@ -1,0 +1,31 @@
+#pragma once
+// The texels of a baked room as dynamic light reads and changes them.
+
+#include "vlf/field/light_field.h"
+#include "vlf/propagate/light_sources.h"
+#include "vlf/scene/scene.h"
+#include "vlf/trace/ray_scene.h"
+#include "vlf/unwrap/unwrap.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace vlf {
+
+inline constexpr std::uint32_t kNoTexel = 0xffffffffu;
+
+/// What does not change while objects move. Arrays are by atlas texel.
+struct RoomTexels {
+    Unwrap unwrap;
+    LightSources sources;
+    FieldFrame frame;
+    std::vector<std::uint32_t> source;  ///< the covered texel of the same chart that stands for a
+                                        ///< texel, itself if it is covered; kNoTexel: none
+    std::vector<Vec3> reflectance;      ///< diffuse, of covered texels
+    std::vector<float> area;            ///< m², of covered texels
+};
+
+/// Throws InputError if the field is not of the scene.
+RoomTexels makeRoomTexels(const Scene& scene, const RayScene& rays, const LightField& field);
+
+}  // namespace vlf

@@ -1,0 +1,47 @@
+#include "vlf/dynamic/object_model.h"
+#include "vlf/base/error.h"
+#include "vlf/scene/generate/primitives.h"
+
+#include <gtest/gtest.h>
+
+namespace vlf {
+namespace {
+
+TEST(ObjectModel, PrimitivesAreClosedAndOneMetreWide) {
+    for (const std::string& name : primitiveNames()) {
+        const ObjectModel model(makePrimitive(name, {}));
+        EXPECT_TRUE(model.mesh().closed) << name;
+        const Vec3 size = boundsOf(model.scene()).size();
+        EXPECT_NEAR(maxComponent(size), 1, 1e-4f) << name;
+    }
+}
+
+TEST(ObjectModel, AMeshWithoutATriangleIsOpen) {
+    Scene cube = makePrimitive("cube", {});
+    cube.triangles.pop_back();
+    EXPECT_FALSE(ObjectModel(cube).mesh().closed);
+}
+
+TEST(ObjectModel, SubdivisionKeepsTheSurface) {
+    const ObjectModel model(makePrimitive("cube", {}));
+    const auto totalArea = [](const Scene& scene) {
+        float sum = 0;
+        for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) sum += area(scene, t);
+        return sum;
+    };
+    for (int level = 0; level <= ObjectModel::kMaxSubdivision; ++level) {
+        const ObjectMesh& mesh = model.mesh(level);
+        EXPECT_EQ(mesh.scene.triangles.size(), std::size_t{12} << (2 * level));
+        // Both triangles of a face and its four sides: (2^l + 1)^2 vertices a face.
+        EXPECT_EQ(mesh.scene.positions.size(), 6u * ((1u << level) + 1) * ((1u << level) + 1));
+        EXPECT_NEAR(totalArea(mesh.scene), 6, 1e-4f);
+        EXPECT_TRUE(mesh.closed);
+    }
+}
+
+TEST(ObjectModel, NothingIsNoObject) {
+    EXPECT_THROW(ObjectModel(Scene{}), InputError);
+}
+
+}  // namespace
+}  // namespace vlf
