@@ -78,6 +78,28 @@ void Coverage::find(const Scene& scene, const RayScene& roomRays, const RoomTexe
     }
 }
 
+void Coverage::fill(const RoomTexels& room, IrradianceAtlas& light) const {
+    const Unwrap& unwrap = room.unwrap;
+    for (const std::uint32_t i : entries_) {
+        const std::uint32_t texel = unwrap.texels[i];
+        if (uncovered_[texel] > 0) continue;
+        const Chart& chart = unwrap.charts[unwrap.texelChart[i]];
+        const std::uint32_t x = texel % unwrap.atlasWidth, y = texel / unwrap.atlasWidth;
+        Vec3 sum(0);
+        int count = 0;
+        for (std::uint32_t v = std::max(chart.y, y - 1);
+             v <= std::min(chart.y + chart.height - 1, y + 1); ++v)
+            for (std::uint32_t u = std::max(chart.x, x - 1);
+                 u <= std::min(chart.x + chart.width - 1, x + 1); ++u) {
+                const std::uint32_t t = v * unwrap.atlasWidth + u;
+                if (room.source[t] != t || uncovered_[t] <= 0) continue;
+                sum += light.irradiance[t];
+                ++count;
+            }
+        if (count > 0) light.irradiance[texel] = sum / static_cast<float>(count);
+    }
+}
+
 std::span<const SurfacePoint> Coverage::points(const RoomTexels& room, std::size_t i) const {
     const auto k = std::lower_bound(entries_.begin(), entries_.end(), i) - entries_.begin();
     if (static_cast<std::size_t>(k) == entries_.size() || entries_[k] != i)
