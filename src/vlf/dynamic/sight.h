@@ -15,7 +15,8 @@ struct Sight {
     std::uint32_t texel = kNoTexel;  ///< covered texel of the atlas; kNoTexel: black
     std::uint32_t triangle = kNoTriangle;
     float distance = 0;  ///< along the way, over mirrors, metres; 0: nothing met
-    Vec3 throughput{1};  ///< of the mirrors on the way
+    int mirrors = 0;     ///< on the way
+    Vec3 throughput{1};  ///< of these mirrors
     Vec3 emission{0};    ///< radiance emitted there, W·m⁻²·sr⁻¹
 };
 
@@ -44,7 +45,7 @@ class RoomSights {
         rays_.closest(rays, scratch.hits);
         scratch.nextRays.clear(), scratch.nextPaths.clear();
         for (std::uint32_t i = 0; i < rays.size(); ++i)
-            if (scratch.hits[i]) end({i, 0, Vec3(1)}, rays[i], scratch.hits[i], scratch, take);
+            if (scratch.hits[i]) end({i, 0, Vec3(1)}, rays[i], scratch.hits[i], scratch, take, 0);
         for (int reflections = 1; !scratch.nextRays.empty(); ++reflections) {
             std::swap(scratch.rays, scratch.nextRays);
             std::swap(scratch.paths, scratch.nextPaths);
@@ -54,7 +55,7 @@ class RoomSights {
             for (std::size_t i = 0; i < scratch.rays.size(); ++i)
                 if (scratch.hits[i])
                     end(scratch.paths[i], scratch.rays[i], scratch.hits[i], scratch, take,
-                        reflections < kMaxReflections);
+                        reflections);
         }
     }
 
@@ -63,7 +64,7 @@ class RoomSights {
 
     template <class Take>
     void end(const Scratch::Path& path, const Ray& ray, const Hit& hit, Scratch& scratch, Take take,
-             bool mayReflect = true) const {
+             int reflections) const {
         const bool front = glm::dot(areaVector(scene_, hit.triangle), ray.direction) < 0;
         const TriangleCharts& charts = room_.unwrap.triangleCharts[hit.triangle];
         const std::uint32_t chart = front ? charts.front : charts.back;
@@ -72,8 +73,8 @@ class RoomSights {
         const Vec3 position = ray.origin + hit.t * ray.direction;
         if (!material.isPureMirror() || material.isEmitter())
             take(path.ray, Sight{texelAt(chart, position), hit.triangle, path.distance + hit.t,
-                                 path.throughput, emissionAt(material, hit, front)});
-        if (mayReflect && material.isMirror())
+                                 reflections, path.throughput, emissionAt(material, hit, front)});
+        if (reflections < kMaxReflections && material.isMirror())
             reflect(path, ray, hit, chart, front, position, scratch);
     }
 
