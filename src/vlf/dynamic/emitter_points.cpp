@@ -11,9 +11,10 @@ namespace vlf {
 namespace {
 
 constexpr std::size_t kMaxExactTriangles = 8;
+constexpr std::size_t kMaxImages = 64;
 
-EmitterPoint pointOf(const Scene& scene, const Light& light, float u, const Vec2& place,
-                     int count) {
+EmitterPoint pointOf(const Scene& scene, const Light& light, const LightImage& image, float u,
+                     const Vec2& place, int count) {
     const float power = u * light.cumulativePower.back();
     const auto found =
         std::upper_bound(light.cumulativePower.begin(), light.cumulativePower.end() - 1, power);
@@ -22,12 +23,24 @@ EmitterPoint pointOf(const Scene& scene, const Light& light, float u, const Vec2
     const Vec2 b = sampleUniformTriangle(place);
     const Vec2 barycentric =
         (1 - b.x - b.y) * patch.corners[0] + b.x * patch.corners[1] + b.y * patch.corners[2];
-    const Vec3 radiance = emittedRadiance(scene, scene.material(patch.triangle),
-                                          uvAt(scene, patch.triangle, barycentric));
+    const Vec3 position = positionAt(scene, patch.triangle, barycentric);
+    const Vec3 normal = (light.front ? 1.0f : -1.0f) * geometricNormal(scene, patch.triangle);
     const float density = light.density[p] * static_cast<float>(count);
-    return {positionAt(scene, patch.triangle, barycentric),
-            (light.front ? 1.0f : -1.0f) * geometricNormal(scene, patch.triangle), radiance,
+    return {image.imageFromWorld.point(position), image.imageFromWorld.vector(normal), position,
+            emittedRadiance(scene, scene.material(patch.triangle),
+                            uvAt(scene, patch.triangle, barycentric)),
             density > 0 ? 1 / density : 0};
+}
+
+EmitterShare shareOf(const Scene& scene, const Light& light, const LightImage& image) {
+    EmitterShare share;
+    share.exact = light.uniform && light.planar && light.triangles.size() <= kMaxExactTriangles;
+    if (share.exact)
+        for (const std::uint32_t t : light.triangles)
+            share.triangles.push_back({image.imageFromWorld.point(scene.position(t, 0)),
+                                       image.imageFromWorld.point(scene.position(t, 1)),
+                                       image.imageFromWorld.point(scene.position(t, 2))});
+    return share;
 }
 
 }  // namespace
@@ -35,26 +48,24 @@ EmitterPoint pointOf(const Scene& scene, const Light& light, float u, const Vec2
 EmitterPoints spreadPoints(const Scene& scene, const LightSources& sources, int count,
                            int pattern) {
     EmitterPoints emitters;
-    const int lights = static_cast<int>(sources.lights.size());
-    const int each = std::max(1, count / std::max(1, lights));
-    for (int l = 0; l < lights; ++l) {
-        const Light& light = sources.lights[l];
-        RandomStream random(static_cast<std::uint64_t>(pattern), static_cast<std::uint64_t>(l));
+    emitters.withImages = sources.images.size() <= sources.lights.size() + kMaxImages;
+    const int each = std::max(1, count / std::max(1, static_cast<int>(sources.lights.size())));
+    for (std::uint32_t i = 0; i < sources.images.size(); ++i) {
+        const LightImage& image = sources.images[i];
+        if (image.depth > 0 && !emitters.withImages) continue;
+        const Light& light = sources.lights[image.light];
+        const int points = image.depth == 0 ? each : std::max(1, each / 4);
+        RandomStream random(static_cast<std::uint64_t>(pattern), i);
         const Vec2 shift = random.next2();
         const float offset = random.next();
-        EmitterShare share;
-        share.light = static_cast<std::uint32_t>(l);
+        EmitterShare share = shareOf(scene, light, image);
+        share.image = i;
         share.first = static_cast<std::uint32_t>(emitters.points.size());
-        share.count = static_cast<std::uint32_t>(each);
-        share.exact = light.uniform && light.planar && light.triangles.size() <= kMaxExactTriangles;
-        if (share.exact)
-            for (const std::uint32_t t : light.triangles)
-                share.triangles.push_back(
-                    {scene.position(t, 0), scene.position(t, 1), scene.position(t, 2)});
-        for (int i = 0; i < each; ++i)
-            emitters.points.push_back(
-                pointOf(scene, light, (static_cast<float>(i) + offset) / static_cast<float>(each),
-                        r2Point(static_cast<std::uint32_t>(i), shift), each));
+        share.count = static_cast<std::uint32_t>(points);
+        for (int k = 0; k < points; ++k)
+            emitters.points.push_back(pointOf(
+                scene, light, image, (static_cast<float>(k) + offset) / static_cast<float>(points),
+                r2Point(static_cast<std::uint32_t>(k), shift), points));
         emitters.shares.push_back(std::move(share));
     }
     return emitters;

@@ -12,17 +12,18 @@
 
 namespace vlf {
 
-/// A point of an emitter and the piece of it that it stands for.
+/// A point of an emitter or of its image in mirrors, and the piece of it that it stands for.
 struct EmitterPoint {
-    Vec3 position{0};
-    Vec3 normal{0};    ///< unit, on the emitting side
+    Vec3 position{0};  ///< where it is seen
+    Vec3 normal{0};    ///< unit, on the emitting side, as seen
+    Vec3 emitter{0};   ///< where it is
     Vec3 radiance{0};  ///< W·m⁻²·sr⁻¹
     float area = 0;    ///< m²
 };
 
-/// The points of one emitter, in a row.
+/// The points of one emitter or image, in a row.
 struct EmitterShare {
-    std::uint32_t light = 0;  ///< of LightSources::lights
+    std::uint32_t image = 0;  ///< of LightSources::images
     std::uint32_t first = 0, count = 0;
     bool exact = false;  ///< `triangles` are all of it, and its radiance is the same all over
     std::vector<std::array<Vec3, 3>> triangles;
@@ -31,10 +32,12 @@ struct EmitterShare {
 struct EmitterPoints {
     std::vector<EmitterPoint> points;
     std::vector<EmitterShare> shares;
+    bool withImages = false;  ///< those of LightSources are among them
 };
 
-/// About `count` points, spread over each emitter in proportion to emitted power; the same number
-/// on each, and one at least. Another `pattern` gives other points.
+/// About `count` points, spread over each emitter in proportion to emitted power: the same number
+/// on each, and one at least. Images have a quarter as many; where there are more than 64, none.
+/// Another `pattern` gives other points.
 EmitterPoints spreadPoints(const Scene& scene, const LightSources& sources, int count, int pattern);
 
 /// Solid angle (steradian) of triangle abc as seen from p (Van Oosterom and Strackee 1983).

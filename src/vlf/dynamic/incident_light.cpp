@@ -81,17 +81,24 @@ void startOutside(std::span<Ray> rays, Bounds box, const Pose& pose) {
                                 pose.inverseDirection(ray.direction) / pose.scale);
 }
 
-/// Diffuse and emitted radiance of an object where a ray has met it.
-Vec3 radianceOf(const LitObject& object, const Hit& hit, const Vec3& direction) {
+Vec3 radianceOf(const InstanceHit& found, const Vec3& direction, std::span<const LitObject> lit) {
+    const LitObject& object = lit[found.instance];
     const Scene& scene = object.mesh->scene;
-    const Vec3 normal = object.pose.direction(geometricNormal(scene, hit.triangle));
-    const bool front = glm::dot(normal, direction) < 0;
-    const Material& material = scene.material(hit.triangle);
-    const Vec2 uv = uvAt(scene, hit.triangle, hit.barycentric);
-    Vec3 radiance = diffuseReflectance(scene, material, uv) *
-                    object.irradiance(hit.triangle, hit.barycentric, front) / kPi;
-    if (front || material.emitsBothSides) radiance += emittedRadiance(scene, material, uv);
+    Sight sight;
+    sight.object = found.instance;
+    sight.triangle = found.hit.triangle;
+    sight.barycentric = found.hit.barycentric;
+    sight.front = glm::dot(object.pose.direction(areaVector(scene, sight.triangle)), direction) < 0;
+    Vec3 radiance = diffuseRadiance(sight, {}, lit);
+    const Material& material = scene.material(sight.triangle);
+    if (sight.front || material.emitsBothSides)
+        radiance +=
+            emittedRadiance(scene, material, uvAt(scene, sight.triangle, sight.barycentric));
     return radiance;
+}
+
+bool any(const SightObjects* objects) {
+    return objects && objects->rays && !objects->rays->empty();
 }
 
 }  // namespace
@@ -106,8 +113,9 @@ void applyTransfer(const PrtTransfer& transfer, const IncidentLight& light,
 
 IncidentLightFinder::IncidentLightFinder(const Scene& scene, const RayScene& rays,
                                          const RoomTexels& room, const IncidentSettings& settings)
-    : rays_(rays),
-      sights_(scene, rays, room),
+    : scene_(scene),
+      rays_(rays),
+      room_(room),
       largeRadius_(settings.largeFrom * room.frame.radius),
       emittersApart_(settings.emitterPoints > 0),
       middle_(makePattern(scene, room.sources, settings.lines, settings.emitterPoints, 0)) {
@@ -142,7 +150,7 @@ IncidentLightFinder::Pattern IncidentLightFinder::makePattern(const Scene& scene
 void IncidentLightFinder::look(const Pattern& pattern, std::span<const Vec3> radiance,
                                const Body& body, Scratch& scratch) const {
     scratch.seen.assign(pattern.directions.size(), Vec3(0));
-    if (body.others && body.others->rays && !body.others->rays->empty()) {
+    if (any(body.others)) {
         startOutside(scratch.rays, *body.box, *body.pose);
         scratch.hits.resize(scratch.rays.size());
         body.others->rays->closest(scratch.rays, scratch.hits);
@@ -153,50 +161,80 @@ void IncidentLightFinder::look(const Pattern& pattern, std::span<const Vec3> rad
     } else {
         scratch.hits.clear();
     }
-    sights_.trace(scratch.rays, scratch.sights, [&](std::uint32_t i, const Sight& sight) {
-        Vec3 light(0);
-        if (sight.texel != kNoTexel) light = radiance[sight.texel];
-        if (!emittersApart_ || sight.mirrors > 0) light += sight.emission;
-        scratch.seen[i] += sight.throughput * light;
-        if (!scratch.hits.empty()) scratch.hits[i] = {};
-    });
+    const bool inMirrorsApart = pattern.emitters.withImages;
+    for (const Sight& sight : scratch.sights.trace(scratch.rays)) {
+        const bool apart =
+            emittersApart_ && (sight.inMirror ? inMirrorsApart && sight.emissionApart : true);
+        Vec3 light = diffuseRadiance(sight, radiance, {});
+        if (!apart) light += sight.emission;
+        scratch.seen[sight.ray] += sight.throughput * light;
+        if (!scratch.hits.empty()) scratch.hits[sight.ray] = {};
+    }
     for (std::size_t i = 0; i < scratch.hits.size(); ++i)
-        if (const InstanceHit& found = scratch.hits[i])
+        if (scratch.hits[i])
             scratch.seen[i] =
-                radianceOf(body.others->lit[found.instance], found.hit, scratch.rays[i].direction);
+                radianceOf(scratch.hits[i], scratch.rays[i].direction, body.others->lit);
 }
 
+/// What emitters and their images in mirrors send, straight to the point.
 void IncidentLightFinder::addEmitters(const Vec3& point, const Pattern& pattern, const Body& body,
                                       Scratch& scratch, Sh<Vec3>& light) const {
     const EmitterPoints& emitters = pattern.emitters;
     scratch.solidAngles.resize(emitters.points.size());
-    for (const EmitterShare& share : emitters.shares)
+    scratch.rays.clear(), scratch.points.clear();
+    const auto add = [&](std::uint32_t p, const Vec3& throughput) {
+        const EmitterPoint& emitter = emitters.points[p];
+        const Sh<float> basis = shBasis(glm::normalize(emitter.position - point));
+        const Vec3 power = scratch.solidAngles[p] * throughput * emitter.radiance;
+        for (int f = 0; f < kMaxShCount; ++f) light[f] += basis[f] * power;
+    };
+    for (const EmitterShare& share : emitters.shares) {
         solidAngles(emitters, share, point,
                     std::span(scratch.solidAngles).subspan(share.first, share.count));
-    scratch.rays.clear(), scratch.points.clear();
-    for (std::uint32_t i = 0; i < emitters.points.size(); ++i) {
-        if (scratch.solidAngles[i] <= 0) continue;
-        const Vec3 target =
-            emitters.points[i].position + rays_.epsilon() * emitters.points[i].normal;
-        scratch.rays.push_back({point, target - point, 0, 1});
-        scratch.points.push_back(i);
+        const LightImage& image = room_.sources.images[share.image];
+        for (std::uint32_t p = share.first; p < share.first + share.count; ++p) {
+            if (scratch.solidAngles[p] <= 0) continue;
+            const EmitterPoint& emitter = emitters.points[p];
+            if (image.depth == 0) {
+                const Vec3 target = emitter.position + rays_.epsilon() * emitter.normal;
+                scratch.rays.push_back({point, target - point, 0, 1});
+                scratch.points.push_back(p);
+            } else if (Vec3 throughput(1); isSeenOverMirrors(point, emitter, image, throughput)) {
+                add(p, throughput);
+            }
+        }
     }
     scratch.blocked.resize(scratch.rays.size());
     rays_.occluded(scratch.rays, scratch.blocked);
-    if (body.others && body.others->rays && !body.others->rays->empty()) {
+    if (any(body.others)) {
         startOutside(scratch.rays, *body.box, *body.pose);
         scratch.blockedByObjects.resize(scratch.rays.size());
         body.others->rays->occluded(scratch.rays, scratch.blockedByObjects);
         for (std::size_t i = 0; i < scratch.rays.size(); ++i)
             scratch.blocked[i] |= scratch.blockedByObjects[i];
     }
-    for (std::size_t i = 0; i < scratch.rays.size(); ++i) {
-        if (scratch.blocked[i]) continue;
-        const std::uint32_t p = scratch.points[i];
-        const Sh<float> basis = shBasis(glm::normalize(scratch.rays[i].direction));
-        const Vec3 power = scratch.solidAngles[p] * emitters.points[p].radiance;
-        for (int f = 0; f < kMaxShCount; ++f) light[f] += basis[f] * power;
+    for (std::size_t i = 0; i < scratch.rays.size(); ++i)
+        if (!scratch.blocked[i]) add(scratch.points[i], Vec3(1));
+}
+
+/// Whether the way to the image meets exactly its mirrors, whose reflectances it is multiplied by.
+bool IncidentLightFinder::isSeenOverMirrors(const Vec3& point, const EmitterPoint& emitter,
+                                            const LightImage& image, Vec3& throughput) const {
+    Vec3 origin = point, direction = glm::normalize(emitter.position - point);
+    for (int k = 0; k < image.depth; ++k) {
+        const Hit hit = rays_.closest({origin, direction});
+        if (!hit) return false;
+        const RoomTriangle& triangle = room_.triangles[hit.triangle];
+        const bool front = glm::dot(triangle.areaVector, direction) < 0;
+        if ((front ? triangle.charts.front : triangle.charts.back) != image.mirror[k]) return false;
+        throughput *= mirrorReflectance(scene_, scene_.material(hit.triangle),
+                                        uvAt(scene_, hit.triangle, hit.barycentric));
+        const Vec3 normal = (front ? 1.0f : -1.0f) * geometricNormal(scene_, hit.triangle);
+        origin += hit.t * direction + rays_.epsilon() * normal;
+        direction = glm::reflect(direction, normal);
     }
+    const Vec3 way = emitter.emitter - origin;
+    return !rays_.occluded({origin, way, 0, 1 - 2 * rays_.epsilon() / glm::length(way)});
 }
 
 Sh<Vec3> IncidentLightFinder::sample(const Vec3& point, const Pattern& pattern,
@@ -223,7 +261,7 @@ Vec3 IncidentLightFinder::cornerPoint(const Bounds& box, const Pose& pose, int c
 }
 
 void IncidentLightFinder::find(const Bounds& box, const Pose& pose, std::span<const Vec3> radiance,
-                               const Surrounding& others, Scratch& scratch,
+                               const SightObjects& others, Scratch& scratch,
                                IncidentLight& light) const {
     const Body body{&box, &pose, &others};
     const Quat toObject = glm::conjugate(pose.rotation);

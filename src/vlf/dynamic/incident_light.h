@@ -33,22 +33,19 @@ struct IncidentLight {
 void applyTransfer(const PrtTransfer& transfer, const IncidentLight& light,
                    std::span<Vec3> irradiance);
 
-/// Objects that may be in the way; `rays` are among `lit`, in their order.
-struct Surrounding {
-    const RayInstances* rays = nullptr;
-    std::span<const LitObject> lit;
-};
-
-/// Finds it. Refers to what it is given; find() may be called from several threads, each with
-/// memory of its own.
+/// Finds it. Refers to what it is given.
 class IncidentLightFinder {
   public:
     IncidentLightFinder(const Scene& scene, const RayScene& rays, const RoomTexels& room,
                         const IncidentSettings& settings = {});
 
+    /// Memory of one thread, kept from call to call.
     struct Scratch {
+        explicit Scratch(const IncidentLightFinder& finder)
+            : sights(finder.scene_, finder.rays_, finder.room_) {}
+
+        SightTracer sights;
         std::vector<Ray> rays;
-        RoomSights::Scratch sights;
         std::vector<InstanceHit> hits;
         std::vector<std::uint8_t> blocked, blockedByObjects;
         std::vector<Vec3> seen;
@@ -57,10 +54,10 @@ class IncidentLightFinder {
     };
 
     /// For an object with this box, in its own space, at `pose`. `radiance` is what the room's
-    /// covered texels reflect, by atlas index. What of other objects is within the object's own box
-    /// is not seen.
+    /// covered texels reflect, by atlas index. Other objects are seen outside the object's own box
+    /// and not in mirrors.
     void find(const Bounds& box, const Pose& pose, std::span<const Vec3> radiance,
-              const Surrounding& others, Scratch& scratch, IncidentLight& light) const;
+              const SightObjects& others, Scratch& scratch, IncidentLight& light) const;
 
     /// At one point, in the world's directions, with `lines` and `emitterPoints` of the settings.
     Sh<Vec3> at(const Vec3& point, std::span<const Vec3> radiance, Scratch& scratch) const;
@@ -76,7 +73,7 @@ class IncidentLightFinder {
     struct Body {
         const Bounds* box = nullptr;
         const Pose* pose = nullptr;
-        const Surrounding* others = nullptr;
+        const SightObjects* others = nullptr;
     };
 
     static Pattern makePattern(const Scene& scene, const LightSources& sources, int lines,
@@ -87,10 +84,13 @@ class IncidentLightFinder {
               Scratch& scratch) const;
     void addEmitters(const Vec3& point, const Pattern& pattern, const Body& body, Scratch& scratch,
                      Sh<Vec3>& light) const;
+    bool isSeenOverMirrors(const Vec3& point, const EmitterPoint& emitter, const LightImage& image,
+                           Vec3& throughput) const;
     Vec3 cornerPoint(const Bounds& box, const Pose& pose, int corner) const;
 
+    const Scene& scene_;
     const RayScene& rays_;
-    RoomSights sights_;
+    const RoomTexels& room_;
     float largeRadius_;
     bool emittersApart_;
     Pattern middle_;

@@ -31,10 +31,10 @@ struct Reflection {
 };
 
 /// The triangles around each vertex.
-struct Surroundings {
+struct VertexTriangles {
     std::vector<std::uint32_t> first, triangles;
 
-    explicit Surroundings(const Scene& scene) : first(scene.positions.size() + 1, 0) {
+    explicit VertexTriangles(const Scene& scene) : first(scene.positions.size() + 1, 0) {
         for (const Triangle& t : scene.triangles)
             for (const std::uint32_t v : t.vertex) ++first[v + 1];
         std::partial_sum(first.begin(), first.end(), first.begin());
@@ -87,7 +87,7 @@ class TransferTracer {
     const ObjectMesh& mesh_;
     const Scene& scene_;
     bool reflections_;
-    Surroundings around_;
+    VertexTriangles around_;
     DirectionSet set_;
     std::vector<Vec3> directions_;
     std::vector<Sh<float>> basis_;

@@ -46,7 +46,7 @@ void expectConstant(const Sh<Vec3>& light, const Vec3& radiance) {
 TEST(IncidentLight, OfAnEvenlyLitRoomIsConstant) {
     const LitRoom room(emptyRoom(), {1, 2, 3});
     const IncidentLightFinder finder(room.scene, room.rays, room.texels);
-    IncidentLightFinder::Scratch scratch;
+    IncidentLightFinder::Scratch scratch(finder);
     IncidentLight light;
     for (const float scale : {0.01f, 0.5f}) {
         finder.find(kUnitBox, poseAt({0.3f, -0.4f, 0.2f}, scale), room.radiance, {}, scratch,
@@ -60,7 +60,7 @@ TEST(IncidentLight, OfAnEvenlyLitRoomIsConstant) {
 TEST(IncidentLight, AnEmitterCountsByItsSolidAngleFromItsDirection) {
     const LitRoom room(roomWithLamp(), Vec3(0));
     const IncidentLightFinder finder(room.scene, room.rays, room.texels);
-    IncidentLightFinder::Scratch scratch;
+    IncidentLightFinder::Scratch scratch(finder);
     const Vec3 point(0.2f, -0.5f, 0.1f), way = Vec3(0, 0.99f, 0) - point;
     const Sh<Vec3> light = finder.at(point, room.radiance, scratch);
     const float distance = glm::length(way);
@@ -76,17 +76,31 @@ TEST(IncidentLight, EmittersMetByDirectionsAloneAreTheSameOnAverage) {
     const IncidentLightFinder sampled(room.scene, room.rays, room.texels);
     const IncidentLightFinder met(room.scene, room.rays, room.texels,
                                   {.lines = 8193, .emitterPoints = 0});
-    IncidentLightFinder::Scratch scratch;
+    IncidentLightFinder::Scratch scratch(sampled);
     const Vec3 point(0.2f, -0.5f, 0.1f);
     const Sh<Vec3> a = sampled.at(point, room.radiance, scratch);
     const Sh<Vec3> b = met.at(point, room.radiance, scratch);
     for (int f = 0; f < kMaxShCount; ++f) EXPECT_NEAR(a[f].x, b[f].x, 0.01f) << f;
 }
 
+TEST(IncidentLight, EmittersSeenInMirrorsAreTheSameOnAverage) {
+    const LitRoom room(test::mirrorBox(), Vec3(0));
+    const IncidentLightFinder sampled(room.scene, room.rays, room.texels, {.emitterPoints = 256});
+    const IncidentLightFinder met(room.scene, room.rays, room.texels,
+                                  {.lines = 8193, .emitterPoints = 0});
+    IncidentLightFinder::Scratch scratch(sampled);
+    const Vec3 point(-0.3f, 0.2f, 0.1f);
+    const Sh<Vec3> a = sampled.at(point, room.radiance, scratch);
+    const Sh<Vec3> b = met.at(point, room.radiance, scratch);
+    for (int f = 0; f < kMaxShCount; ++f) EXPECT_NEAR(a[f].x, b[f].x, 0.01f) << f;
+    EXPECT_LT(shValue(a, Vec3(-1, 0, 0)).x, shValue(a, Vec3(1, 0, 0)).x);
+    EXPECT_GT(shValue(a, Vec3(-1, 0, 0)).x, 0.1f);
+}
+
 TEST(IncidentLight, IsOfTheObjectsSpace) {
     const LitRoom room(roomWithLamp(), Vec3(0.1f));
     const IncidentLightFinder finder(room.scene, room.rays, room.texels);
-    IncidentLightFinder::Scratch scratch;
+    IncidentLightFinder::Scratch scratch(finder);
     IncidentLight light;
     const Pose pose = poseAt({0.1f, 0, 0}, 0.01f);
     finder.find(kUnitBox, pose, room.radiance, {}, scratch, light);
@@ -99,7 +113,7 @@ TEST(IncidentLight, IsOfTheObjectsSpace) {
 TEST(IncidentLight, CornersOfALargeObjectHaveLightOfTheirOwn) {
     const LitRoom room(roomWithLamp(), Vec3(0));
     const IncidentLightFinder finder(room.scene, room.rays, room.texels);
-    IncidentLightFinder::Scratch scratch;
+    IncidentLightFinder::Scratch scratch(finder);
     IncidentLight light;
     finder.find(kUnitBox, {Vec3(0), Quat(1, 0, 0, 0), 1}, room.radiance, {}, scratch, light);
     ASSERT_FALSE(light.uniform);
@@ -111,7 +125,7 @@ TEST(IncidentLight, CornersOfALargeObjectHaveLightOfTheirOwn) {
 TEST(IncidentLight, CornersBehindAWallAreTakenBeforeIt) {
     const LitRoom room(emptyRoom(), Vec3(1));
     const IncidentLightFinder finder(room.scene, room.rays, room.texels);
-    IncidentLightFinder::Scratch scratch;
+    IncidentLightFinder::Scratch scratch(finder);
     IncidentLight light;
     finder.find(kUnitBox, {Vec3(0.8f, 0, 0), Quat(1, 0, 0, 0), 1}, room.radiance, {}, scratch,
                 light);
@@ -135,7 +149,7 @@ TEST(IncidentLight, OtherObjectsHideTheRoomAndSendLightOfTheirOwn) {
     RayInstances instances;
     instances.place(
         std::array{RayInstance{&mesh.rays, plate.pose}, RayInstance{&mesh.rays, self.pose}});
-    IncidentLightFinder::Scratch scratch;
+    IncidentLightFinder::Scratch scratch(finder);
     IncidentLight alone, below;
     finder.find(kUnitBox, self.pose, room.radiance, {}, scratch, alone);
     finder.find(kUnitBox, self.pose, room.radiance, {&instances, lit}, scratch, below);
