@@ -64,7 +64,7 @@ void ObjectLight::look(const DynamicObject& object, const Surroundings& around, 
     }
     if (lines_)
         delta_.trace(lines_->data, object.pose, around.scene, around.rays, around.room, objects,
-                     around.roomRadiance);
+                     around.coverage, around.roomRadiance);
 }
 
 void ObjectLight::findDirect(const DynamicObject& object, const Surroundings& around) {

@@ -87,8 +87,8 @@ std::vector<std::uint32_t> texelsInShadow(const Scene& scene, const RoomTexels& 
 }
 
 TexelLoss findSoftShadows(const Scene& scene, const RayScene& rays, const RoomTexels& room,
-                          std::span<const Sphere> objects, const ExtraOccluder& occluder,
-                          int samples) {
+                          const Coverage& coverage, std::span<const Sphere> objects,
+                          const ExtraOccluder& occluder, int samples) {
     TexelLoss result;
     result.texels = texelsInShadow(scene, room, objects);
     result.loss.resize(result.texels.size());
@@ -97,9 +97,12 @@ TexelLoss findSoftShadows(const Scene& scene, const RayScene& rays, const RoomTe
         LightGatherer gatherer(scene, rays, room.unwrap, room.sources, 0);
         gatherer.setExtraOccluder(occluder);
         const std::size_t end = std::min(result.texels.size(), (block + 1) * kTexelsPerBlock);
-        for (std::size_t i = block * kTexelsPerBlock; i < end; ++i)
-            result.loss[i] = gatherer.irradianceBlocked(
-                texelReceiver(scene, room.unwrap, result.texels[i]), samples);
+        for (std::size_t i = block * kTexelsPerBlock; i < end; ++i) {
+            LightReceiver receiver = texelReceiver(scene, room.unwrap, result.texels[i]);
+            receiver.points = coverage.points(room, result.texels[i]);
+            if (!receiver.points.empty())
+                result.loss[i] = gatherer.irradianceBlocked(receiver, samples);
+        }
     });
     return result;
 }
