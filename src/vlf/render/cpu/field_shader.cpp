@@ -196,7 +196,7 @@ Vec3 FieldShader::lookUpRoom(const Ray& ray, const Hit& hit) const {
 /// What a mirror of the room shows.
 Vec3 FieldShader::lookUpMirror(const RoomPoint& point, const Ray& ray) const {
     const Surface& surface = point.surface;
-    const MirrorSight sight = lookedUp_->see(
+    const SeenInMirror sight = lookedUp_->see(
         {point.chart, surface.position, surface.geometricNormal}, -ray.direction, lookup_);
     if (!objects_) return sight.radiance;
     const Ray reflected = point.reflect(ray.direction, rays_.epsilon());

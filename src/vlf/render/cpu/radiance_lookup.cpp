@@ -176,14 +176,14 @@ MirrorLookup::View MirrorLookup::viewOf(std::uint32_t direction, float weight,
             weight};
 }
 
-MirrorSight MirrorLookup::see(const MirrorPoint& point, const Vec3& toEye, LookupKind kind) const {
+SeenInMirror MirrorLookup::see(const MirrorPoint& point, const Vec3& toEye, LookupKind kind) const {
     const DirectionTriple triple = directions_.triple(toEye);
     Views views;
     for (int k = 0; k < 3; ++k) views[k] = viewOf(triple.index[k], triple.weight[k], point, toEye);
     return kind == LookupKind::plain ? plain(views) : depthCorrected(views);
 }
 
-MirrorSight MirrorLookup::plain(const Views& views) const {
+SeenInMirror MirrorLookup::plain(const Views& views) const {
     Vec3 sum(0);
     float weights = 0, distances = 0;
     for (const View& view : views)
@@ -194,7 +194,7 @@ MirrorSight MirrorLookup::plain(const Views& views) const {
             distances += w * view.weight * view.depth(*e);
             weights += w * view.weight;
         });
-    return weights > 0 ? MirrorSight{sum / weights, distances / weights} : MirrorSight{};
+    return weights > 0 ? SeenInMirror{sum / weights, distances / weights} : SeenInMirror{};
 }
 
 MirrorLookup::Layer MirrorLookup::layerAt(const Views& views, float s) const {
@@ -221,7 +221,7 @@ MirrorLookup::Layer MirrorLookup::layerAt(const Views& views, float s) const {
     return layer;
 }
 
-MirrorSight MirrorLookup::depthCorrected(const Views& views) const {
+SeenInMirror MirrorLookup::depthCorrected(const Views& views) const {
     std::array<float, 3> depths;
     std::transform(views.begin(), views.end(), depths.begin(),
                    [&](const View& view) { return view.firstSurface(tolerance_); });
@@ -243,7 +243,7 @@ MirrorSight MirrorLookup::depthCorrected(const Views& views) const {
         if (last) break;
         s = next;
     }
-    return left < 1 ? MirrorSight{layers.mean(), distance} : plain(views);
+    return left < 1 ? SeenInMirror{layers.mean(), distance} : plain(views);
 }
 
 }  // namespace vlf

@@ -27,7 +27,7 @@ struct MirrorPoint {
 };
 
 /// What a mirror shows at a point.
-struct MirrorSight {
+struct SeenInMirror {
     Vec3 radiance{0};  ///< W·m⁻²·sr⁻¹, mirror reflectance included, without the diffuse part
     float distance = 0;  ///< metres from the mirror along the reflected ray; 0: not known
 };
@@ -41,7 +41,7 @@ class MirrorLookup {
 
     /// What is seen at `point` from where unit direction `toEye` leads. Black where the field has
     /// nothing of the chart.
-    MirrorSight see(const MirrorPoint& point, const Vec3& toEye, LookupKind kind) const;
+    SeenInMirror see(const MirrorPoint& point, const Vec3& toEye, LookupKind kind) const;
 
     Vec3 mirrorRadiance(const MirrorPoint& point, const Vec3& toEye, LookupKind kind) const {
         return see(point, toEye, kind).radiance;
@@ -54,8 +54,8 @@ class MirrorLookup {
 
     View viewOf(std::uint32_t direction, float weight, const MirrorPoint& point,
                 const Vec3& toEye) const;
-    MirrorSight plain(const Views& views) const;
-    MirrorSight depthCorrected(const Views& views) const;
+    SeenInMirror plain(const Views& views) const;
+    SeenInMirror depthCorrected(const Views& views) const;
     Layer layerAt(const Views& views, float s) const;
 
     const RadianceField& radiance_;
