@@ -61,7 +61,7 @@ void findHidden(const SightObjects& objects, const Views& views, std::vector<Ins
 }  // namespace
 
 void DeltaLines::trace(const ObjectLines& lines, const Pose& pose, const Scene& scene,
-                       const RayScene& rays, const RoomTexels& room, const SightObjects& objects,
+                       const RayScene& rays, const RoomTexels& room, const SightObjects& objects, const Coverage& coverage,
                        std::span<const Vec3> texelRadiance) {
     const std::size_t blocks = (lines.directions.size() + kLinesPerBlock - 1) / kLinesPerBlock;
     blocks_.resize(blocks);
@@ -97,12 +97,15 @@ void DeltaLines::trace(const ObjectLines& lines, const Pose& pose, const Scene& 
                              const std::vector<LineEnd>& objectEnds) {
             for (const Sight& sight : seen.sights) {
                 const std::uint32_t i = sight.ray;
-                if (sight.texel == kNoTexel || room.area[sight.texel] <= 0) continue;
+                if (sight.texel == kNoTexel || !sight.covered) continue;
                 // Covered by the object, or seen by another one.
                 if (!sight.inMirror && sight.distance < s.length[i] + epsilon) continue;
                 if (hidden[i] < sight.distance) continue;
                 const std::uint32_t receiver = objectEnds[first + i].receiver;
-                const float gain = weight[i] / room.area[sight.texel];
+                const float seenArea =
+                    room.area[sight.texel] * coverage.uncovered(sight.texel);
+                if (seenArea <= 0) continue;
+                const float gain = weight[i] / seenArea;
                 ends.push_back({sight.texel, receiver, lost.radiance[i], gain * sight.throughput});
             }
         };

@@ -15,6 +15,7 @@ namespace {
 
 constexpr float kMinCosine = 1e-4f;
 constexpr float kContact = 4;  // ray epsilons
+constexpr float kAlike = 0.8f, kLeastCosine = 0.1f;
 constexpr std::size_t kDirectionsPerBlock = 8;
 
 /// What one direction contributes to the plan.
@@ -44,19 +45,25 @@ class LaunchGrid {
             if (!hits[i]) continue;
             launchOf_[i] = static_cast<std::uint32_t>(launches.size());
             launches.push_back(rays[i].origin + hits[i].t * rays[i].direction);
+            normals_.push_back(geometricNormal(mesh.scene, hits[i].triangle));
         }
     }
 
-    /// The launch of the grid nearest to p; kEmpty if there is none within about a cell.
-    std::uint32_t nearest(const Vec3& p) const {
+    /// The launch of the grid nearest to p, where the surface faces alike; kEmpty if there is none
+    /// within about a cell.
+    std::uint32_t nearest(const Vec3& p, const Vec3& normal) const {
+        // A surface seen at a slant has its launches farther apart.
+        const float cosine = std::max(kLeastCosine, std::abs(glm::dot(normal, frame_.normal)));
         const Vec3 local = frame_.toLocal(p - centre_) / cell_;
         const int x = cellOf(local.x), y = cellOf(local.y);
         std::uint32_t best = kEmpty;
-        float least = 2.5f * cell_ * cell_;
+        float least = 2.5f * cell_ * cell_ / (cosine * cosine);
         for (int j = std::max(0, y - 1); j <= std::min(side_ - 1, y + 1); ++j)
             for (int i = std::max(0, x - 1); i <= std::min(side_ - 1, x + 1); ++i) {
                 const std::uint32_t launch = launchOf_[static_cast<std::size_t>(j) * side_ + i];
-                if (launch == kEmpty) continue;
+                if (launch == kEmpty ||
+                    std::abs(glm::dot(normals_[launch], normal)) < kAlike)
+                    continue;
                 const Vec3 d = launches[launch] - p;
                 if (const float squared = glm::dot(d, d); squared < least)
                     least = squared, best = launch;
@@ -76,6 +83,7 @@ class LaunchGrid {
     float cell_;
     int side_;
     std::vector<std::uint32_t> launchOf_;
+    std::vector<Vec3> normals_;
 };
 
 /// Finds for one direction which receivers see out along it, and what of the object the others see.
@@ -110,7 +118,7 @@ DirectionPart planDirection(const ObjectReceivers& receivers, const Sphere& boun
             if (seen == ObjectReceivers::kNone) continue;
             entry.from = GatherPlan::kSelf | seen;
         } else {
-            entry.from = grid ? grid->nearest(rays[i].origin) : LaunchGrid::kEmpty;
+            entry.from = grid ? grid->nearest(rays[i].origin, receivers.geometric[r]) : LaunchGrid::kEmpty;
             if (entry.from == LaunchGrid::kEmpty) {
                 entry.from = static_cast<std::uint32_t>(part.launches.size());
                 part.launches.push_back(rays[i].origin);
@@ -162,7 +170,7 @@ GatherPlan makeGatherPlan(const ObjectReceivers& receivers, const Sphere& bounds
 
 void GatherSights::trace(const GatherPlan& plan, const Pose& pose, const Scene& scene,
                          const RayScene& rays, const RoomTexels& room, const SightObjects& objects,
-                         bool emission) {
+                         const Coverage& coverage, bool emission) {
     const std::size_t count = plan.launches.size();
     texel_.assign(count, kNoTexel);
     valid_.assign(count, 1);
@@ -184,6 +192,11 @@ void GatherSights::trace(const GatherPlan& plan, const Pose& pose, const Scene& 
         tracer.setObjects(objects);
         others_[block].clear();
         for (const Sight& s : tracer.trace(queue)) {
+            // What an object lies on is dark, and it is not known how dark.
+            if (s.texel != kNoTexel && coverage.uncovered(s.texel) <= 0) {
+                valid_[first + s.ray] = 0;
+                continue;
+            }
             const bool plain = s.texel != kNoTexel && !s.inMirror;
             if (plain) texel_[first + s.ray] = s.texel;
             Seen seen{first + s.ray, s};

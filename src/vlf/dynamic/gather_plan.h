@@ -10,6 +10,7 @@
 // Neighbours see almost the same: where receivers are many, rays start at the far ends of a grid of
 // lines through the object, and every receiver reads the one that starts next to it.
 
+#include "vlf/dynamic/coverage.h"
 #include "vlf/dynamic/object_receivers.h"
 #include "vlf/dynamic/sight.h"
 
@@ -51,7 +52,8 @@ class GatherSights {
     /// Traces them for an object in this pose. `emission`: of the room's emitters as they are met;
     /// otherwise only where direct light does not have it.
     void trace(const GatherPlan& plan, const Pose& pose, const Scene& scene, const RayScene& rays,
-               const RoomTexels& room, const SightObjects& objects, bool emission);
+               const RoomTexels& room, const SightObjects& objects, const Coverage& coverage,
+               bool emission);
 
     /// Irradiance at the receivers, added to what is in `irradiance`. `own`: irradiance at the
     /// receivers as parts of the object see it.

@@ -3,6 +3,8 @@
 #include "vlf/base/parallel.h"
 
 #include <algorithm>
+#include <cstdio>
+#include <cstdlib>
 
 namespace vlf {
 
@@ -56,15 +58,17 @@ void ObjectLight::look(const DynamicObject& object, const Surroundings& around, 
     std::fill(own_.begin(), own_.end(), Vec3(0));
     if (plan_->gathers) {
         sights_.trace(plan_->gather, object.pose, around.scene, around.rays, around.room, objects,
-                      object.settings.gather.emittersByDirections);
+                      around.coverage, object.settings.gather.emittersByDirections);
         if (object.settings.gather.emittersByDirections)
             std::fill(direct_.begin(), direct_.end(), Vec3(0));
         else
             findDirect(object, around);
     }
+    if (getenv("TIMES")) printf("[receivers %zu launches %zu entries %zu lines %zu] ", plan_->receivers->size(), plan_->gather.launches.size(), plan_->gather.entries.size(), lines_ ? lines_->data.entries.size() : 0);
+    if (getenv("NODELTA")) return;
     if (lines_)
         delta_.trace(lines_->data, object.pose, around.scene, around.rays, around.room, objects,
-                     around.roomRadiance);
+                     around.coverage, around.roomRadiance);
 }
 
 void ObjectLight::findDirect(const DynamicObject& object, const Surroundings& around) {

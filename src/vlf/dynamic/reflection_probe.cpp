@@ -84,7 +84,9 @@ class Sightline {
     /// negative before it.
     float behind(float t) const {
         const Vec3 q = fromCentre(t);
-        return glm::length(q) * Bilinear(q, probe_.size).of(probe_.inverseDistance) - 1;
+        const float length = glm::length(q);
+        if (length <= 0) return -1;
+        return length * Bilinear(q, probe_.size).of(probe_.inverseDistance) - 1;
     }
 
   private:

@@ -52,14 +52,16 @@ void SightTracer::meetRoom(const Path& path, const Ray& ray, const Hit& hit) {
     const RoomTriangle& triangle = room_.triangles[hit.triangle];
     const bool front = glm::dot(triangle.areaVector, ray.direction) < 0;
     const std::uint32_t chart = front ? triangle.charts.front : triangle.charts.back;
-    if (chart == kNoChart) {
+    const Vec3 position = ray.origin + hit.t * ray.direction;
+    const std::uint32_t texel = chart == kNoChart ? kNoTexel : atlasTexel(chart, position);
+    if (texel == kNoTexel || room_.excluded[texel]) {
         if (path.reflections == 0) within_[path.ray] = 1;
         return;
     }
-    const Vec3 position = ray.origin + hit.t * ray.direction;
     Sight sight;
     sight.ray = path.ray;
-    sight.texel = texelAt(chart, position);
+    sight.texel = room_.source[texel];
+    sight.covered = sight.texel == texel;
     sight.triangle = hit.triangle;
     sight.barycentric = hit.barycentric;
     sight.front = front;
@@ -129,12 +131,12 @@ void SightTracer::reflect(Path path, const Ray& ray, float t, const MirrorPoint&
     nextPaths_.push_back(path);
 }
 
-std::uint32_t SightTracer::texelAt(std::uint32_t chart, const Vec3& position) const {
+std::uint32_t SightTracer::atlasTexel(std::uint32_t chart, const Vec3& position) const {
     const Chart& c = room_.unwrap.charts[chart];
     const Vec2 t = c.texelCoordinates(position);
     const auto x = static_cast<std::uint32_t>(std::clamp(t.x, 0.0f, c.width - 1.0f));
     const auto y = static_cast<std::uint32_t>(std::clamp(t.y, 0.0f, c.height - 1.0f));
-    return room_.source[(c.y + y) * room_.unwrap.atlasWidth + c.x + x];
+    return (c.y + y) * room_.unwrap.atlasWidth + c.x + x;
 }
 
 Vec3 diffuseRadiance(const Sight& sight, std::span<const Vec3> texelRadiance,

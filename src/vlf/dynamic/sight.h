@@ -17,6 +17,7 @@ inline constexpr std::uint32_t kNoObject = 0xffffffffu;
 struct Sight {
     std::uint32_t ray = 0;
     std::uint32_t texel = kNoTexel;    ///< covered texel of the room; kNoTexel: an object or black
+    bool covered = true;               ///< it is there, not beside it
     std::uint32_t object = kNoObject;  ///< of the lit objects
     std::uint32_t triangle = kNoTriangle;
     Vec2 barycentric{0};
@@ -73,7 +74,7 @@ class SightTracer {
     void meetRoom(const Path& path, const Ray& ray, const Hit& hit);
     void meetObject(const Path& path, const Ray& ray, const InstanceHit& hit);
     void reflect(Path path, const Ray& ray, float t, const MirrorPoint& mirror);
-    std::uint32_t texelAt(std::uint32_t chart, const Vec3& position) const;
+    std::uint32_t atlasTexel(std::uint32_t chart, const Vec3& position) const;
 
     const Scene& scene_;
     const RayScene& rays_;

@@ -217,7 +217,7 @@ TEST(ObjectStill, AnObjectIsLitAsPathTracingSays) {
     params.camera.verticalFov = 20;
     params.camera.look = {0.3f, 0.15f, 0.6f};
     params.width = 48, params.height = 36;
-    params.samplesPerPixel = 96;
+    params.samplesPerPixel = 1024;
     Progress progress;
     const Image truth = pathTrace(posed, RayScene(posed), params, progress).image;
     StillParams still = stillParams(params.camera, 48, 36);
