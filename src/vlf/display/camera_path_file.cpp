@@ -1,15 +1,10 @@
 #include "vlf/display/camera_path_file.h"
 
-#include "vlf/base/error.h"
 #include "vlf/base/file.h"
+#include "vlf/base/json_element.h"
 
-#include <algorithm>
 #include <charconv>
-#include <initializer_list>
 #include <numbers>
-
-#include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 namespace vlf {
 
@@ -21,44 +16,7 @@ constexpr const char* kFormat = "vlf camera path";
 constexpr int kVersion = 1;
 constexpr double kDegree = std::numbers::pi / 180;
 
-/// An element of a file.
-struct Element {
-    const json& value;
-    SourceLocation where;
-
-    [[noreturn]] void fail(const std::string& what) const { throw InputError(where, what); }
-
-    /// Throws unless the value is an object with exactly these members.
-    void requireMembers(std::initializer_list<const char*> names) const {
-        if (!value.is_object()) fail("must be an object");
-        for (const char* name : names)
-            if (!value.contains(name)) fail(fmt::format("has no \"{}\"", name));
-        for (const auto& [key, ignored] : value.items())
-            if (std::find(names.begin(), names.end(), key) == names.end())
-                fail(fmt::format("has \"{}\", which version {} does not know", key, kVersion));
-    }
-
-    /// Precondition: requireMembers named it.
-    Element member(const char* name) const {
-        const std::string prefix = where.element.empty() ? "" : where.element + ".";
-        return {value.at(name), {where.file, 0, prefix + name}};
-    }
-    Element item(std::size_t i) const {
-        return {value.at(i), {where.file, 0, fmt::format("{}[{}]", where.element, i)}};
-    }
-
-    double number() const {
-        if (!value.is_number()) fail("must be a number");
-        return value.get<double>();
-    }
-    Vec3 point() const {
-        if (!value.is_array() || value.size() != 3) fail("must be an array of three numbers");
-        const auto coordinate = [&](std::size_t i) { return static_cast<float>(item(i).number()); };
-        return {coordinate(0), coordinate(1), coordinate(2)};
-    }
-};
-
-CameraSample readSample(const Element& element) {
+CameraSample readSample(const JsonElement& element) {
     element.requireMembers({"seconds", "eye", "yaw", "pitch", "verticalFov"});
     CameraSample sample;
     sample.seconds = element.member("seconds").number();
@@ -69,7 +27,7 @@ CameraSample readSample(const Element& element) {
     return sample;
 }
 
-void requireFormat(const Element& root) {
+void requireFormat(const JsonElement& root) {
     if (!root.value.is_object() || !root.value.contains("format") ||
         root.value["format"] != kFormat)
         root.fail(fmt::format("is no camera path: it must hold an object with \"format\": \"{}\"",
@@ -95,18 +53,12 @@ std::string degrees(float radians) {
 }  // namespace
 
 CameraPath parseCameraPath(std::string_view text, const std::string& nameForErrors) {
-    json root;
-    try {
-        root = json::parse(text);
-    } catch (const json::exception& error) {
-        throw InputError({nameForErrors, 0, ""}, error.what());
-    }
-    const Element file{root, {nameForErrors, 0, ""}};
+    const json root = parseJson(text, nameForErrors);
+    const JsonElement file{root, {nameForErrors, 0, ""}};
     requireFormat(file);
-    const Element camera = file.member("camera");
-    if (!camera.value.is_array()) camera.fail("must be an array of samples");
+    const JsonElement camera = file.member("camera");
     std::vector<CameraSample> samples;
-    for (std::size_t i = 0; i < camera.value.size(); ++i)
+    for (std::size_t i = 0; i < camera.size("samples"); ++i)
         samples.push_back(readSample(camera.item(i)));
     return CameraPath(std::move(samples), nameForErrors);
 }
