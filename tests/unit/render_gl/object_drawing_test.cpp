@@ -86,7 +86,7 @@ TEST_F(OpenGl, MirrorsShowObjectsAtTheRightPixels) {
     DynamicRoom dynamic(room.scene, room.rays, room.field);
     Material glow = matte(Vec3(0));
     glow.emission = {100, 0, 0};
-    dynamic.add(objectOf("knot", {2.9f, 1.8f, 1.2f}, 0.8f, glow));
+    dynamic.add(objectOf("knot", {2.6f, 1.8f, 1.7f}, 1.4f, glow));
     dynamic.update();
     const DynamicPicture truth(room.rays, dynamic);
     Renderer renderer(room.scene, room.field);
@@ -119,7 +119,7 @@ TEST_F(OpenGl, HidesObjectsBehindWhatIsNearerInMirrorsToo) {
     DynamicRoom dynamic(room.scene, room.rays, room.field);
     Material glow = matte(Vec3(0));
     glow.emission = {100, 0, 0};
-    dynamic.add(objectOf("sphere", {1.9f, 0.45f, 2.3f}, 0.5f, glow));  // within the plinth
+    dynamic.add(objectOf("sphere", {1.9f, 0.4f, 2.3f}, 0.15f, glow));  // within the plinth
     dynamic.update();
     Renderer renderer(room.scene, room.field);
     renderer.updateObjects(dynamic);
