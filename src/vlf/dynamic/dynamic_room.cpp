@@ -1,15 +1,19 @@
 #include "vlf/dynamic/dynamic_room.h"
 
 #include "vlf/base/error.h"
-#include "vlf/base/parallel.h"
-#include "vlf/dynamic/sight.h"
-#include "vlf/field/direction_set.h"
+#include "vlf/dynamic/object_light.h"
+#include "vlf/dynamic/room_change.h"
+#include "vlf/dynamic/soft_shadow.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace vlf {
 
 namespace {
+
+constexpr int kMaxLines = 2049;
+constexpr int kRounds = 2;
 
 void check(const DynamicObject& object) {
     if (!object.model) throw InputError("an object needs a model");
@@ -29,29 +33,97 @@ Vec3 meanIrradiance(const RoomTexels& room, const IrradianceAtlas& atlas) {
     return area > 0 ? Vec3(sum / area) : Vec3(0);
 }
 
+bool castsSoftShadow(const DynamicObject& object) {
+    return object.settings.shadow == ShadowKind::soft ||
+           object.settings.shadow == ShadowKind::field;
+}
+
 }  // namespace
 
 struct DynamicRoom::Impl {
     struct Entry {
         DynamicObject object;
-        std::vector<Vec3> irradiance;
-        bool stale = true;
-        std::uint64_t version = 0;
+        std::unique_ptr<ObjectLight> light = std::make_unique<ObjectLight>();
+        bool unprepared = true;
     };
 
     Impl(const Scene& s, const RayScene& r, const LightField& f)
-        : scene(s),
-          roomRays(r),
-          field(f),
-          room(makeRoomTexels(s, r, f)),
-          roomLight(f.atlas),
-          light(f.atlas) {}
+        : scene(s), roomRays(r), field(f), room(makeRoomTexels(s, r, f)), change(room) {
+        setRoomLight(f.atlas);
+    }
 
-    void light_(Entry& entry) {
-        const ObjectMesh& mesh = entry.object.model->mesh(entry.object.settings.gather.subdivision);
-        entry.irradiance.assign(mesh.sidedVertexCount(), meanIrradiance(room, light));
-        ++entry.version;
-        entry.stale = false;
+    void setRoomLight(const IrradianceAtlas& atlas) {
+        roomLight = atlas;
+        light = atlas;
+        roomRadiance.assign(atlas.irradiance.size(), Vec3(0));
+        for (const std::uint32_t t : room.unwrap.texels)
+            roomRadiance[t] = room.reflectance[t] * atlas.irradiance[t] / kPi;
+        radiance = roomRadiance;
+        mean = meanIrradiance(room, atlas);
+        ++lightVersion;
+    }
+
+    /// The visible objects, where they are.
+    void place() {
+        std::vector<RayInstance> instances;
+        lit.clear(), numbers.clear(), spheres.clear(), casters.clear();
+        for (std::size_t i = 0; i < entries.size(); ++i) {
+            Entry& entry = entries[i];
+            const DynamicObject& object = entry.object;
+            if (!object.visible) continue;
+            if (std::exchange(entry.unprepared, false))
+                entry.light->prepare(
+                    object, plans, std::min(field.record.directions, kMaxLines),
+                    2 * field.frame.radius / static_cast<float>(field.record.cells));
+            numbers.push_back(i);
+            lit.push_back(entry.light->lit());
+            lit.back().pose = object.pose;
+            instances.push_back({&lit.back().mesh->rays, object.pose});
+            if (castsSoftShadow(object)) {
+                const Sphere& bounds = object.model->bounds();
+                spheres.push_back(
+                    {object.pose.point(bounds.centre), object.pose.scale * bounds.radius});
+                casters.push_back(instances.back());
+            }
+        }
+        rays.place(instances);
+        casterRays.place(casters);
+    }
+
+    Surroundings surroundings() const {
+        return {scene, roomRays, room, roomRadiance, radiance, rays, lit, mean};
+    }
+
+    /// Light goes back and forth between room and objects.
+    void exchange() {
+        const Surroundings around = surroundings();
+        for (std::uint32_t i = 0; i < lit.size(); ++i)
+            entries[numbers[i]].light->look(entries[numbers[i]].object, around, i);
+        const TexelLoss loss = spheres.empty()
+                                   ? TexelLoss{}
+                                   : findSoftShadows(scene, roomRays, room, spheres,
+                                                     occluderOf(casterRays), shadowSamples());
+        for (int round = 0; round < kRounds; ++round) {
+            change.clear();
+            for (std::size_t i = 0; i < loss.texels.size(); ++i)
+                if (loss.loss[i] != Vec3(0))
+                    change.add(room.unwrap.texels[loss.texels[i]], -loss.loss[i]);
+            for (std::uint32_t i = 0; i < lit.size(); ++i) {
+                ObjectLight& onObject = *entries[numbers[i]].light;
+                onObject.find(entries[numbers[i]].object, around);
+                onObject.addChange(change.change, change.touched, change.texels);
+            }
+            change.apply(room, roomLight, light, radiance);
+        }
+        for (std::size_t i = 0; i < lit.size(); ++i) lit[i] = entries[numbers[i]].light->lit();
+        ++lightVersion;
+    }
+
+    int shadowSamples() const {
+        int most = 1;
+        for (const std::size_t i : numbers)
+            most = std::max(most, entries[i].object.settings.directSamples);
+        return most;
     }
 
     const Scene& scene;
@@ -59,15 +131,20 @@ struct DynamicRoom::Impl {
     const LightField& field;
     RoomTexels room;
     IrradianceAtlas roomLight, light;
+    std::vector<Vec3> roomRadiance, radiance;  ///< diffuse, leaving the texels
+    Vec3 mean{0};
     std::uint64_t lightVersion = 0;
     std::vector<Entry> entries;
+    ObjectPlans plans;
     std::vector<LitObject> lit;
     std::vector<std::size_t> numbers;
-    RayInstances rays;
+    RayInstances rays, casterRays;  ///< of all; of those whose shadows are sampled
+    std::vector<RayInstance> casters;
+    std::vector<Sphere> spheres;  ///< around the casters
+    RoomChange change;
     PointLighting points;
     bool changed = false;
 };
-
 DynamicRoom::DynamicRoom(const Scene& scene, const RayScene& rays, const LightField& field)
     : impl_(std::make_unique<Impl>(scene, rays, field)) {}
 DynamicRoom::~DynamicRoom() = default;
@@ -83,7 +160,7 @@ const DynamicObject& DynamicRoom::object(std::size_t i) const {
 
 void DynamicRoom::add(DynamicObject object) {
     check(object);
-    impl_->entries.push_back({std::move(object), {}});
+    impl_->entries.emplace_back().object = std::move(object);
     impl_->changed = true;
 }
 
@@ -98,20 +175,21 @@ void DynamicRoom::setPose(std::size_t i, const Pose& pose) {
     DynamicObject moved = entry.object;
     moved.pose = pose;
     check(moved);
+    entry.unprepared = entry.unprepared || pose.scale != entry.object.pose.scale;
     entry.object.pose = pose;
-    entry.stale = impl_->changed = true;
+    impl_->changed = true;
 }
 
 void DynamicRoom::setSettings(std::size_t i, const ObjectSettings& settings) {
     Impl::Entry& entry = impl_->entries[i];
     if (entry.object.settings == settings) return;
     entry.object.settings = settings;
-    entry.stale = impl_->changed = true;
+    entry.unprepared = impl_->changed = true;
 }
 
 void DynamicRoom::setModel(std::size_t i, std::shared_ptr<const ObjectModel> model) {
     impl_->entries[i].object.model = std::move(model);
-    impl_->entries[i].stale = impl_->changed = true;
+    impl_->entries[i].unprepared = impl_->changed = true;
 }
 
 void DynamicRoom::setVisible(std::size_t i, bool visible) {
@@ -123,30 +201,14 @@ void DynamicRoom::setVisible(std::size_t i, bool visible) {
 void DynamicRoom::setViewers(std::span<const Vec3>) {}
 
 void DynamicRoom::setRoomIrradiance(const IrradianceAtlas& atlas) {
-    impl_->roomLight = impl_->light = atlas;
-    ++impl_->lightVersion;
-    for (Impl::Entry& entry : impl_->entries) entry.stale = true;
+    impl_->setRoomLight(atlas);
     impl_->changed = true;
 }
 
 bool DynamicRoom::update() {
     if (!std::exchange(impl_->changed, false)) return false;
-    impl_->lit.clear(), impl_->numbers.clear();
-    std::vector<RayInstance> instances;
-    for (std::size_t i = 0; i < impl_->entries.size(); ++i) {
-        Impl::Entry& entry = impl_->entries[i];
-        if (!entry.object.visible) continue;
-        if (entry.stale) impl_->light_(entry);
-        LitObject lit;
-        lit.mesh = &entry.object.model->mesh(entry.object.settings.gather.subdivision);
-        lit.pose = entry.object.pose;
-        lit.vertexIrradiance = entry.irradiance;
-        lit.version = entry.version;
-        impl_->lit.push_back(lit);
-        impl_->numbers.push_back(i);
-        instances.push_back({&lit.mesh->rays, lit.pose});
-    }
-    impl_->rays.place(instances);
+    impl_->place();
+    impl_->exchange();
     return true;
 }
 

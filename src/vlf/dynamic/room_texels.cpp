@@ -2,12 +2,16 @@
 
 #include "vlf/base/error.h"
 #include "vlf/base/parallel.h"
+#include "vlf/dynamic/spread_texels.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace vlf {
 
 namespace {
+
+constexpr std::uint32_t kGroupSide = 8;
 
 /// Mean diffuse reflectance over a texel's points.
 Vec3 meanReflectance(const Scene& scene, std::span<const SurfacePoint> points) {
@@ -19,32 +23,31 @@ Vec3 meanReflectance(const Scene& scene, std::span<const SurfacePoint> points) {
     return sum / static_cast<float>(points.size());
 }
 
-/// Spreads the covered texels of one chart over the rest of it and its gutter, ring by ring.
-void spread(const Chart& chart, std::uint32_t atlasWidth, std::vector<std::uint32_t>& source) {
-    std::vector<std::uint32_t> front;
-    const auto forEach = [&](auto visit) {
-        for (std::uint32_t y = chart.y - kGutter; y < chart.y + chart.height + kGutter; ++y)
-            for (std::uint32_t x = chart.x - kGutter; x < chart.x + chart.width + kGutter; ++x)
-                visit(x, y);
-    };
-    forEach([&](std::uint32_t x, std::uint32_t y) {
-        if (source[y * atlasWidth + x] != kNoTexel) front.push_back(y * atlasWidth + x);
-    });
-    while (!front.empty()) {
-        std::vector<std::uint32_t> next;
-        for (const std::uint32_t t : front)
-            for (const auto& [dx, dy] :
-                 {std::pair(-1, 0), std::pair(1, 0), std::pair(0, -1), std::pair(0, 1)}) {
-                const std::uint32_t x = t % atlasWidth + dx, y = t / atlasWidth + dy;
-                if (x < chart.x - kGutter || y < chart.y - kGutter ||
-                    x >= chart.x + chart.width + kGutter || y >= chart.y + chart.height + kGutter)
-                    continue;
-                std::uint32_t& found = source[y * atlasWidth + x];
-                if (found != kNoTexel) continue;
-                found = source[t];
-                next.push_back(y * atlasWidth + x);
-            }
-        front = std::move(next);
+/// Squares of kGroupSide² texels of a chart.
+void groupTexels(const Scene& scene, RoomTexels& room) {
+    const Unwrap& unwrap = room.unwrap;
+    std::vector<std::pair<std::uint64_t, std::uint32_t>> keyed;
+    for (std::uint32_t i = 0; i < unwrap.texels.size(); ++i) {
+        const Chart& chart = unwrap.charts[unwrap.texelChart[i]];
+        const std::uint32_t x = unwrap.texels[i] % unwrap.atlasWidth - chart.x;
+        const std::uint32_t y = unwrap.texels[i] / unwrap.atlasWidth - chart.y;
+        const std::uint64_t square = std::uint64_t{y / kGroupSide} << 16 | x / kGroupSide;
+        keyed.emplace_back(std::uint64_t{unwrap.texelChart[i]} << 32 | square, i);
+    }
+    std::stable_sort(keyed.begin(), keyed.end(),
+                     [](const auto& a, const auto& b) { return a.first < b.first; });
+    for (std::size_t begin = 0, end = 0; begin < keyed.size(); begin = end) {
+        TexelGroup group;
+        group.first = static_cast<std::uint32_t>(begin);
+        Bounds bounds;
+        for (; end < keyed.size() && keyed[end].first == keyed[begin].first; ++end) {
+            room.grouped.push_back(keyed[end].second);
+            for (const SurfacePoint& p : unwrap.points.of(keyed[end].second))
+                bounds.add(positionAt(scene, p.triangle, p.barycentric));
+        }
+        group.count = static_cast<std::uint32_t>(end - begin);
+        group.bounds = {bounds.centre(), 0.5f * glm::length(bounds.size())};
+        room.groups.push_back(group);
     }
 }
 
@@ -62,14 +65,23 @@ RoomTexels makeRoomTexels(const Scene& scene, const RayScene& rays, const LightF
     room.source.assign(unwrap.atlasSize(), kNoTexel);
     room.reflectance.assign(unwrap.atlasSize(), Vec3(0));
     room.area.assign(unwrap.atlasSize(), 0);
+    room.entryOf.assign(unwrap.atlasSize(), kNoTexel);
+    for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) {
+        const Material& material = scene.material(t);
+        room.triangles.push_back({areaVector(scene, t), field.triangleCharts[t],
+                                  !material.isMirror() && !material.isEmitter()});
+    }
     parallelFor(unwrap.texels.size(), 512, [&](std::size_t i) {
         const std::uint32_t texel = unwrap.texels[i];
         room.source[texel] = texel;
         room.reflectance[texel] = meanReflectance(scene, unwrap.points.of(i));
         room.area[texel] = unwrap.texelArea(i);
+        room.entryOf[texel] = static_cast<std::uint32_t>(i);
     });
-    parallelFor(unwrap.charts.size(), 16,
-                [&](std::size_t c) { spread(unwrap.charts[c], unwrap.atlasWidth, room.source); });
+    parallelFor(unwrap.charts.size(), 16, [&](std::size_t c) {
+        spreadOverChart(unwrap.charts[c], unwrap.atlasWidth, kNoTexel, room.source);
+    });
+    groupTexels(scene, room);
     return room;
 }
 

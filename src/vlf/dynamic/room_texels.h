@@ -14,6 +14,19 @@ namespace vlf {
 
 inline constexpr std::uint32_t kNoTexel = 0xffffffffu;
 
+/// A triangle of the room as rays meet it.
+struct RoomTriangle {
+    Vec3 areaVector{0};
+    TriangleCharts charts;
+    bool plain = true;  ///< neither mirror nor emitter
+};
+
+/// Covered texels that lie together.
+struct TexelGroup {
+    Sphere bounds;                       ///< of their surface
+    std::uint32_t first = 0, count = 0;  ///< in RoomTexels::grouped
+};
+
 /// What does not change while objects move. Arrays are by atlas texel.
 struct RoomTexels {
     Unwrap unwrap;
@@ -23,6 +36,10 @@ struct RoomTexels {
                                         ///< texel, itself if it is covered; kNoTexel: none
     std::vector<Vec3> reflectance;      ///< diffuse, of covered texels
     std::vector<float> area;            ///< m², of covered texels
+    std::vector<RoomTriangle> triangles;
+    std::vector<TexelGroup> groups;
+    std::vector<std::uint32_t> grouped;  ///< entries of unwrap.texels
+    std::vector<std::uint32_t> entryOf;  ///< of unwrap.texels, of covered texels
 };
 
 /// Throws InputError if the field is not of the scene.

@@ -1,6 +1,9 @@
 #include "vlf/dynamic/sight.h"
 
+#include "vlf/propagate/ray_gather.h"
+
 #include <algorithm>
+#include <utility>
 
 namespace vlf {
 
@@ -8,7 +11,125 @@ namespace {
 constexpr float kMinThroughput = 1e-4f;
 }
 
-std::uint32_t RoomSights::texelAt(std::uint32_t chart, const Vec3& position) const {
+const std::vector<Sight>& SightTracer::trace(std::span<const Ray> rays) {
+    sights_.clear();
+    within_.assign(rays.size(), 0);
+    nextQueue_.clear(), nextPaths_.clear();
+    findHits(rays, true);
+    for (std::uint32_t i = 0; i < rays.size(); ++i) meet({i, 0, true, 0, Vec3(1)}, rays[i], i);
+    while (!nextQueue_.empty()) {
+        std::swap(queue_, nextQueue_), std::swap(paths_, nextPaths_);
+        nextQueue_.clear(), nextPaths_.clear();
+        findHits(queue_, false);
+        for (std::size_t i = 0; i < queue_.size(); ++i) meet(paths_[i], queue_[i], i);
+    }
+    return sights_;
+}
+
+void SightTracer::findHits(std::span<const Ray> rays, bool first) {
+    hits_.resize(rays.size());
+    rays_.closest(rays, hits_);
+    const bool alone = objects_.lit.size() == 1 && objects_.own == 0;
+    if (!objects_.rays || objects_.rays->empty() || (first && alone)) {
+        objectHits_.clear();
+        return;
+    }
+    objectHits_.resize(rays.size());
+    objects_.rays->closest(rays, objectHits_);
+    if (!first) return;
+    for (InstanceHit& hit : objectHits_)
+        if (hit.instance == objects_.own) hit.hit = {};
+}
+
+void SightTracer::meet(const Path& path, const Ray& ray, std::size_t i) {
+    if (!objectHits_.empty() && objectHits_[i] && objectHits_[i].hit.t < hits_[i].t)
+        meetObject(path, ray, objectHits_[i]);
+    else if (hits_[i])
+        meetRoom(path, ray, hits_[i]);
+}
+
+void SightTracer::meetRoom(const Path& path, const Ray& ray, const Hit& hit) {
+    const RoomTriangle& triangle = room_.triangles[hit.triangle];
+    const bool front = glm::dot(triangle.areaVector, ray.direction) < 0;
+    const std::uint32_t chart = front ? triangle.charts.front : triangle.charts.back;
+    if (chart == kNoChart) {
+        if (path.reflections == 0) within_[path.ray] = 1;
+        return;
+    }
+    const Vec3 position = ray.origin + hit.t * ray.direction;
+    Sight sight;
+    sight.ray = path.ray;
+    sight.texel = texelAt(chart, position);
+    sight.triangle = hit.triangle;
+    sight.barycentric = hit.barycentric;
+    sight.front = front;
+    sight.inMirror = path.reflections > 0;
+    sight.distance = path.distance + hit.t;
+    sight.throughput = path.throughput;
+    if (triangle.plain) {
+        sights_.push_back(sight);
+        return;
+    }
+    const Material& material = scene_.material(hit.triangle);
+    if (material.isEmitter() && (front || material.emitsBothSides)) {
+        sight.emission =
+            emittedRadiance(scene_, material, uvAt(scene_, hit.triangle, hit.barycentric));
+        sight.emissionApart = room_.sources.covers(path.reflections, path.planarOnly);
+    }
+    if (!material.isPureMirror() || material.isEmitter()) sights_.push_back(sight);
+    if (!material.isMirror()) return;
+    const Vec3 side = geometricNormal(scene_, hit.triangle) * (front ? 1.0f : -1.0f);
+    const bool planar = room_.unwrap.charts[chart].planar;
+    const Vec3 normal = planar ? side : shadingNormalAt(scene_, hit.triangle, hit.barycentric);
+    reflect(path, ray, hit.t,
+            {position, normal, side,
+             mirrorReflectance(scene_, material, uvAt(scene_, hit.triangle, hit.barycentric)),
+             rays_.epsilon(), planar});
+}
+
+void SightTracer::meetObject(const Path& path, const Ray& ray, const InstanceHit& found) {
+    const LitObject& object = objects_.lit[found.instance];
+    const Scene& scene = object.mesh->scene;
+    const Hit& hit = found.hit;
+    const Vec3 winding = object.pose.direction(geometricNormal(scene, hit.triangle));
+    Sight sight;
+    sight.ray = path.ray;
+    sight.object = found.instance;
+    sight.triangle = hit.triangle;
+    sight.barycentric = hit.barycentric;
+    sight.front = glm::dot(winding, ray.direction) < 0;
+    sight.inMirror = path.reflections > 0;
+    sight.distance = path.distance + hit.t;
+    sight.throughput = path.throughput;
+    if (!sight.front && object.mesh->closed) return;
+    const Material& material = scene.material(hit.triangle);
+    const Vec2 uv = uvAt(scene, hit.triangle, hit.barycentric);
+    if (material.isEmitter() && (sight.front || material.emitsBothSides))
+        sight.emission = emittedRadiance(scene, material, uv), sight.emissionApart = false;
+    if (!material.isPureMirror() || material.isEmitter()) sights_.push_back(sight);
+    if (!material.isMirror()) return;
+    const float scale = object.pose.scale;
+    reflect(path, ray, hit.t,
+            {ray.origin + hit.t * ray.direction,
+             object.pose.direction(shadingNormalAt(scene, hit.triangle, hit.barycentric)),
+             sight.front ? winding : -winding, mirrorReflectance(scene, material, uv),
+             std::max(rays_.epsilon(), scale * object.mesh->rays.epsilon()), false});
+}
+
+void SightTracer::reflect(Path path, const Ray& ray, float t, const MirrorPoint& mirror) {
+    path.throughput *= mirror.reflectance;
+    path.distance += t;
+    path.planarOnly = path.planarOnly && mirror.planar;
+    if (++path.reflections > kMaxReflections || maxComponent(path.throughput) < kMinThroughput)
+        return;
+    const Vec3 normal = glm::dot(mirror.normal, mirror.side) < 0 ? -mirror.normal : mirror.normal;
+    const Vec3 reflected = glm::reflect(ray.direction, normal);
+    if (glm::dot(reflected, mirror.side) <= 0) return;
+    nextQueue_.push_back({mirror.position + mirror.epsilon * mirror.side, reflected});
+    nextPaths_.push_back(path);
+}
+
+std::uint32_t SightTracer::texelAt(std::uint32_t chart, const Vec3& position) const {
     const Chart& c = room_.unwrap.charts[chart];
     const Vec2 t = c.texelCoordinates(position);
     const auto x = static_cast<std::uint32_t>(std::clamp(t.x, 0.0f, c.width - 1.0f));
@@ -16,24 +137,15 @@ std::uint32_t RoomSights::texelAt(std::uint32_t chart, const Vec3& position) con
     return room_.source[(c.y + y) * room_.unwrap.atlasWidth + c.x + x];
 }
 
-Vec3 RoomSights::emissionAt(const Material& material, const Hit& hit, bool front) const {
-    if (!material.isEmitter() || !(front || material.emitsBothSides)) return Vec3(0);
-    return emittedRadiance(scene_, material, uvAt(scene_, hit.triangle, hit.barycentric));
-}
-
-void RoomSights::reflect(Scratch::Path path, const Ray& ray, const Hit& hit, std::uint32_t chart,
-                         bool front, const Vec3& position, Scratch& scratch) const {
-    path.throughput *= mirrorReflectance(scene_, scene_.material(hit.triangle),
-                                         uvAt(scene_, hit.triangle, hit.barycentric));
-    path.distance += hit.t;
-    const Vec3 side = geometricNormal(scene_, hit.triangle) * (front ? 1.0f : -1.0f);
-    const bool planar = room_.unwrap.charts[chart].planar;
-    Vec3 normal = planar ? side : shadingNormalAt(scene_, hit.triangle, hit.barycentric);
-    if (glm::dot(normal, side) < 0) normal = -normal;
-    const Vec3 reflected = glm::reflect(ray.direction, normal);
-    if (glm::dot(reflected, side) <= 0 || maxComponent(path.throughput) < kMinThroughput) return;
-    scratch.nextRays.push_back({position + rays_.epsilon() * side, reflected});
-    scratch.nextPaths.push_back(path);
+Vec3 diffuseRadiance(const Sight& sight, std::span<const Vec3> texelRadiance,
+                     std::span<const LitObject> lit) {
+    if (sight.texel != kNoTexel) return texelRadiance[sight.texel];
+    if (sight.object == kNoObject) return Vec3(0);
+    const LitObject& object = lit[sight.object];
+    const Scene& scene = object.mesh->scene;
+    const Vec3 reflectance = diffuseReflectance(scene, scene.material(sight.triangle),
+                                                uvAt(scene, sight.triangle, sight.barycentric));
+    return reflectance * object.irradiance(sight.triangle, sight.barycentric, sight.front) / kPi;
 }
 
 }  // namespace vlf

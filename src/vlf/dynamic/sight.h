@@ -1,7 +1,9 @@
 #pragma once
-// What rays see of the room without its objects, mirrors followed to the diffuse surface behind.
+// What rays see of a room and of the objects in it, mirrors followed to what is seen in them.
 
+#include "vlf/dynamic/lit_object.h"
 #include "vlf/dynamic/room_texels.h"
+#include "vlf/trace/ray_instances.h"
 
 #include <cstdint>
 #include <span>
@@ -9,82 +11,84 @@
 
 namespace vlf {
 
-/// The end of a ray. A mirror with a diffuse part ends it too, at the mirror, with the mirror's
-/// throughput lost to whoever follows no further: see RoomSights.
+inline constexpr std::uint32_t kNoObject = 0xffffffffu;
+
+/// A surface that reflects diffusely, at the end of a ray or on its way.
 struct Sight {
-    std::uint32_t texel = kNoTexel;  ///< covered texel of the atlas; kNoTexel: black
+    std::uint32_t ray = 0;
+    std::uint32_t texel = kNoTexel;    ///< covered texel of the room; kNoTexel: an object or black
+    std::uint32_t object = kNoObject;  ///< of the lit objects
     std::uint32_t triangle = kNoTriangle;
-    float distance = 0;  ///< along the way, over mirrors, metres; 0: nothing met
-    Vec3 throughput{1};  ///< of the mirrors on the way
-    Vec3 emission{0};    ///< radiance emitted there, W·m⁻²·sr⁻¹
+    Vec2 barycentric{0};
+    bool front = true;
+    bool inMirror = false;
+    float distance = 0;         ///< along the way, over mirrors, in lengths of the ray's direction
+    Vec3 throughput{1};         ///< of the mirrors on the way
+    Vec3 emission{0};           ///< radiance emitted there, W·m⁻²·sr⁻¹
+    bool emissionApart = true;  ///< the direct light of the room's emitters has it already
 };
 
-/// Traces them. Refers to what it is given.
-class RoomSights {
+/// The objects that rays may meet, in the order of `rays`' instances.
+struct SightObjects {
+    const RayInstances* rays = nullptr;
+    std::span<const LitObject> lit;
+    std::uint32_t own = kNoObject;  ///< rays start on this one and meet it only in mirrors
+};
+
+/// Traces rays. Refers to what it is given; memory is kept from call to call: one for each thread.
+class SightTracer {
   public:
-    RoomSights(const Scene& scene, const RayScene& rays, const RoomTexels& room)
+    SightTracer(const Scene& scene, const RayScene& rays, const RoomTexels& room)
         : scene_(scene), rays_(rays), room_(room) {}
 
-    /// Calls take(ray's number, sight) for every diffuse surface met: one per ray, and one more for
-    /// each mirror with a diffuse part on the way. Rays that meet nothing are not told of. Those
-    /// over mirrors are told of after all others. `Scratch` is memory of the caller's thread.
-    struct Scratch {
-        std::vector<Ray> rays, nextRays;
-        std::vector<Hit> hits;
-        struct Path {
-            std::uint32_t ray;
-            float distance;
-            Vec3 throughput;
-        };
-        std::vector<Path> paths, nextPaths;
-    };
-    template <class Take>
-    void trace(std::span<const Ray> rays, Scratch& scratch, Take take) const {
-        scratch.hits.resize(rays.size());
-        rays_.closest(rays, scratch.hits);
-        scratch.nextRays.clear(), scratch.nextPaths.clear();
-        for (std::uint32_t i = 0; i < rays.size(); ++i)
-            if (scratch.hits[i]) end({i, 0, Vec3(1)}, rays[i], scratch.hits[i], scratch, take);
-        for (int reflections = 1; !scratch.nextRays.empty(); ++reflections) {
-            std::swap(scratch.rays, scratch.nextRays);
-            std::swap(scratch.paths, scratch.nextPaths);
-            scratch.nextRays.clear(), scratch.nextPaths.clear();
-            scratch.hits.resize(scratch.rays.size());
-            rays_.closest(scratch.rays, scratch.hits);
-            for (std::size_t i = 0; i < scratch.rays.size(); ++i)
-                if (scratch.hits[i])
-                    end(scratch.paths[i], scratch.rays[i], scratch.hits[i], scratch, take,
-                        reflections < kMaxReflections);
-        }
-    }
+    /// Of the room alone unless there are objects to be met.
+    void setObjects(const SightObjects& objects) { objects_ = objects; }
+
+    /// What the rays see, those in mirrors after all others. A ray has one sight, none if it meets
+    /// nothing or the inside of a solid (`within()`), or several where mirrors on its way reflect
+    /// diffusely, too.
+    const std::vector<Sight>& trace(std::span<const Ray> rays);
+
+    /// By ray: 1 if the first surface it meets shows its inner side, so that the ray starts within
+    /// a solid or outside the room.
+    const std::vector<std::uint8_t>& within() const { return within_; }
 
   private:
-    static constexpr int kMaxReflections = 16;  // as in the bake
+    struct Path {
+        std::uint32_t ray;
+        int reflections;
+        bool planarOnly;
+        float distance;
+        Vec3 throughput;
+    };
+    /// Where a path meets a mirror.
+    struct MirrorPoint {
+        Vec3 position, normal, side, reflectance;
+        float epsilon;
+        bool planar;
+    };
 
-    template <class Take>
-    void end(const Scratch::Path& path, const Ray& ray, const Hit& hit, Scratch& scratch, Take take,
-             bool mayReflect = true) const {
-        const bool front = glm::dot(areaVector(scene_, hit.triangle), ray.direction) < 0;
-        const TriangleCharts& charts = room_.unwrap.triangleCharts[hit.triangle];
-        const std::uint32_t chart = front ? charts.front : charts.back;
-        if (chart == kNoChart) return;
-        const Material& material = scene_.material(hit.triangle);
-        const Vec3 position = ray.origin + hit.t * ray.direction;
-        if (!material.isPureMirror() || material.isEmitter())
-            take(path.ray, Sight{texelAt(chart, position), hit.triangle, path.distance + hit.t,
-                                 path.throughput, emissionAt(material, hit, front)});
-        if (mayReflect && material.isMirror())
-            reflect(path, ray, hit, chart, front, position, scratch);
-    }
-
+    void findHits(std::span<const Ray> rays, bool first);
+    void meet(const Path& path, const Ray& ray, std::size_t i);
+    void meetRoom(const Path& path, const Ray& ray, const Hit& hit);
+    void meetObject(const Path& path, const Ray& ray, const InstanceHit& hit);
+    void reflect(Path path, const Ray& ray, float t, const MirrorPoint& mirror);
     std::uint32_t texelAt(std::uint32_t chart, const Vec3& position) const;
-    Vec3 emissionAt(const Material& material, const Hit& hit, bool front) const;
-    void reflect(Scratch::Path path, const Ray& ray, const Hit& hit, std::uint32_t chart,
-                 bool front, const Vec3& position, Scratch& scratch) const;
 
     const Scene& scene_;
     const RayScene& rays_;
     const RoomTexels& room_;
+    SightObjects objects_;
+    std::vector<Sight> sights_;
+    std::vector<std::uint8_t> within_;
+    std::vector<Hit> hits_;
+    std::vector<InstanceHit> objectHits_;
+    std::vector<Ray> queue_, nextQueue_;
+    std::vector<Path> paths_, nextPaths_;
 };
+
+/// Diffuse radiance that leaves what is seen: `texelRadiance` is by atlas texel of the room.
+Vec3 diffuseRadiance(const Sight& sight, std::span<const Vec3> texelRadiance,
+                     std::span<const LitObject> lit);
 
 }  // namespace vlf

@@ -7,7 +7,6 @@
 #include "vlf/unwrap/chart_groups.h"
 #include "vlf/unwrap/chart_layout.h"
 #include "vlf/unwrap/seams.h"
-#include "vlf/unwrap/side_exposure.h"
 #include "vlf/unwrap/texel_size.h"
 
 #include <algorithm>
@@ -177,7 +176,9 @@ Unwrap unwrap(const Scene& scene, const RayScene& rays, const UnwrapParams& para
     const std::vector<ChartGroup> groups = groupTriangles(scene, result.texelSize);
     const std::vector<std::uint32_t> groupOf = groupOfTriangles(groups, scene.triangles.size());
     progress.check();
-    const std::vector<OpenSides> sides = findOpenSides(scene, rays, groups, groupOf, params.seed);
+    const std::vector<OpenSides> sides =
+        params.sides ? std::vector<OpenSides>(groups.size(), *params.sides)
+                     : findOpenSides(scene, rays, groups, groupOf, params.seed);
     std::vector<float> sizes = texelSizes(scene, groups, result.texelSize);
     for (int refinements = 0;; ++refinements) {
         progress.check();

@@ -7,9 +7,11 @@
 #include "vlf/field/pack_atlas.h"
 #include "vlf/scene/scene.h"
 #include "vlf/trace/ray_scene.h"
+#include "vlf/unwrap/side_exposure.h"
 #include "vlf/unwrap/texel_points.h"
 
 #include <cstdint>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -61,6 +63,7 @@ struct UnwrapParams {
     float texelSize = 0;         ///< metres, of flat surfaces; 0: from the budget
     double texelBudget = 75000;  ///< about how many texels to spend on the scene
     std::uint64_t seed = 0;
+    std::optional<OpenSides> sides;  ///< that have texels; none: those that light can reach
 };
 
 /// Throws InputError if the scene would need more than 2^28 texels, Cancelled.

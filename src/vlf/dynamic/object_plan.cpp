@@ -1,0 +1,54 @@
+#include "vlf/dynamic/object_plan.h"
+
+#include <algorithm>
+
+namespace vlf {
+
+namespace {
+
+/// The one that fits, or null; forgets those that nobody uses.
+template <class Plan, class Fits>
+std::shared_ptr<const Plan> find(std::vector<std::weak_ptr<const Plan>>& plans, Fits fits) {
+    std::erase_if(plans, [](const auto& plan) { return plan.expired(); });
+    for (const auto& weak : plans)
+        if (const auto plan = weak.lock(); plan && fits(*plan)) return plan;
+    return nullptr;
+}
+
+}  // namespace
+
+std::shared_ptr<const ObjectPlan> ObjectPlans::plan(const DynamicObject& object) {
+    const GatherSettings& settings = object.settings.gather;
+    const bool gathers = object.settings.shading == Shading::gather;
+    const auto found = find(plans_, [&](const ObjectPlan& p) {
+        return p.model == object.model && p.settings == settings && p.gathers == gathers;
+    });
+    if (found) return found;
+    auto plan = std::make_shared<ObjectPlan>();
+    plan->model = object.model;
+    plan->settings = settings;
+    plan->gathers = gathers;
+    plan->receivers = makeReceivers(*object.model, settings);
+    if (gathers)
+        plan->gather = makeGatherPlan(*plan->receivers, object.model->bounds(),
+                                      {settings.lines, settings.step});
+    plans_.push_back(plan);
+    return plan;
+}
+
+std::shared_ptr<const LinesPlan> ObjectPlans::linesPlan(
+    const std::shared_ptr<const ObjectPlan>& plan, int lines, float cell) {
+    const auto found = find(lines_, [&](const LinesPlan& l) {
+        return l.of == plan && l.lines == lines && std::abs(l.cell - cell) <= 1e-4f * cell;
+    });
+    if (found) return found;
+    auto made = std::make_shared<LinesPlan>();
+    made->of = plan;
+    made->lines = lines;
+    made->cell = cell;
+    made->data = makeObjectLines(*plan->receivers, plan->model->bounds(), lines, cell);
+    lines_.push_back(made);
+    return made;
+}
+
+}  // namespace vlf

@@ -1,0 +1,42 @@
+#pragma once
+// What is made once for a model and used by all objects of it.
+
+#include "vlf/dynamic/gather_plan.h"
+#include "vlf/dynamic/object.h"
+#include "vlf/dynamic/object_lines.h"
+#include "vlf/dynamic/object_receivers.h"
+
+#include <memory>
+#include <vector>
+
+namespace vlf {
+
+/// Receivers of light, and how they gather it.
+struct ObjectPlan {
+    std::shared_ptr<const ObjectModel> model;
+    GatherSettings settings;
+    std::unique_ptr<const ObjectReceivers> receivers;
+    GatherPlan gather;  ///< empty unless shading is `gather`
+    bool gathers = false;
+};
+
+struct LinesPlan {
+    std::shared_ptr<const ObjectPlan> of;
+    int lines = 0;
+    float cell = 0;
+    ObjectLines data;
+};
+
+/// Keeps plans for as long as an object uses them.
+class ObjectPlans {
+  public:
+    std::shared_ptr<const ObjectPlan> plan(const DynamicObject& object);
+    std::shared_ptr<const LinesPlan> linesPlan(const std::shared_ptr<const ObjectPlan>& plan,
+                                               int lines, float cell);
+
+  private:
+    std::vector<std::weak_ptr<const ObjectPlan>> plans_;
+    std::vector<std::weak_ptr<const LinesPlan>> lines_;
+};
+
+}  // namespace vlf

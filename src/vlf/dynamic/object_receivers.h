@@ -1,0 +1,43 @@
+#pragma once
+// The points of an object at which its light is found: vertices or texels, in the model's space.
+
+#include "vlf/dynamic/lit_object.h"
+#include "vlf/dynamic/object.h"
+#include "vlf/propagate/light_gatherer.h"
+#include "vlf/unwrap/unwrap.h"
+
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+namespace vlf {
+
+struct ObjectReceivers {
+    const ObjectMesh* mesh = nullptr;
+    std::vector<Vec3> position;
+    std::vector<Vec3> normal;       ///< unit, of shading
+    std::vector<Vec3> geometric;    ///< unit, of the surface; at a vertex the mean of those around
+    std::vector<Vec3> reflectance;  ///< diffuse, mean over the receiver
+    std::vector<LightReceiver> light;  ///< as receivers of direct light, their pose left open
+    TexelPoints points;                ///< that `light` refers to
+
+    /// Where they are texels; else receiver i is sided vertex i (ObjectMesh::sidedVertexCount).
+    std::unique_ptr<const Unwrap> unwrap;
+    ObjectTexels texels;
+    std::vector<std::uint32_t>
+        source;  ///< by atlas texel: the receiver that stands for it, or none
+
+    std::size_t size() const { return position.size(); }
+    bool areTexels() const { return unwrap != nullptr; }
+    static constexpr std::uint32_t kNone = 0xffffffffu;
+
+    /// The receiver nearest to a place on a side of a triangle; kNone on the inside of a solid.
+    std::uint32_t at(std::uint32_t triangle, const Vec2& barycentric, bool front) const;
+};
+
+/// Vertices of mesh(settings.subdivision), or texels. Of texels of no given size there are about
+/// 400. `model` must outlive them. Throws InputError as unwrap does.
+std::unique_ptr<const ObjectReceivers> makeReceivers(const ObjectModel& model,
+                                                     const GatherSettings& settings);
+
+}  // namespace vlf

@@ -1,0 +1,415 @@
+#include "vlf/propagate/light_gatherer.h"
+
+#include "vlf/math/form_factor.h"
+#include "vlf/math/frame.h"
+#include "vlf/math/random.h"
+#include "vlf/math/sampling.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace vlf {
+
+namespace {
+
+constexpr int kMaxAnalyticTriangles = 8;
+constexpr float kAgreement = 0.1f;  // relative spread of form factors over a texel
+constexpr std::array<std::size_t, kTexelGrid> kLatinSquare{1, 3, 0, 2};  // column taken in each row
+constexpr float kMinSamples = 3;
+constexpr float kLittle = 0.01f;     // share of the likely effect of all lights
+constexpr float kGrazing = 1e-5f;    // cosine: a point in a light's own plane gets nothing from it
+constexpr float kSlack = 0.01f;      // texels
+constexpr float kNearField = 0.25f;  // distance, in sides of a square of a light's area
+
+struct LightSample {
+    Vec3 point, normal;  // world
+    Vec3 radiance;
+    float density;  // m⁻²
+};
+
+LightSample sampleLight(const Scene& scene, const Light& light, Vec2 u) {
+    const float target = u.x * light.cumulativePower.back();
+    const auto& sums = light.cumulativePower;
+    const auto i = std::min<std::size_t>(
+        std::upper_bound(sums.begin(), sums.end(), target) - sums.begin(), sums.size() - 1);
+    const float before = i > 0 ? sums[i - 1] : 0;
+    u.x = std::clamp((target - before) / (sums[i] - before), 0.0f, 0.99999994f);
+    const LightPatch& patch = light.patches[i];
+    const Vec2 w = sampleUniformTriangle(u);
+    const Vec2 b =
+        (1 - w.x - w.y) * patch.corners[0] + w.x * patch.corners[1] + w.y * patch.corners[2];
+    const Vec3 normal = geometricNormal(scene, patch.triangle) * (light.front ? 1.0f : -1.0f);
+    const Material& material = scene.material(patch.triangle);
+    const Vec3 radiance = light.uniform
+                              ? material.emission
+                              : emittedRadiance(scene, material, uvAt(scene, patch.triangle, b));
+    return {positionAt(scene, patch.triangle, b), normal, radiance, light.density[i]};
+}
+
+bool hasFormFactor(const Light& light) {
+    return light.uniform && light.planar && light.triangles.size() <= kMaxAnalyticTriangles;
+}
+
+/// ∫ (n·ω)⁺ / π over the directions above the surface, n being the shading normal. Divided by
+/// it the receiver's response integrates to one, as that of the bundles' ratio does.
+float lobe(const Vec3& shading, const Vec3& geometric) {
+    return 0.5f * (1 + glm::dot(shading, geometric));
+}
+
+float geometryTerm(const Vec3& position, const Vec3& shading, const Vec3& geometric, const Vec3& y,
+                   const Vec3& lightNormal) {
+    const Vec3 d = y - position;
+    const float squared = glm::dot(d, d);
+    const float cosReceiver = glm::dot(shading, d), cosLight = -glm::dot(lightNormal, d);
+    if (cosReceiver <= 0 || glm::dot(geometric, d) <= 0) return 0;
+    if (cosLight <= kGrazing * std::sqrt(squared)) return 0;
+    return cosReceiver * cosLight / (squared * squared * lobe(shading, geometric));
+}
+
+}  // namespace
+
+LightReceiver texelReceiver(const Scene& scene, const Unwrap& unwrap, std::size_t i) {
+    LightReceiver r;
+    r.scene = &scene;
+    r.points = unwrap.points.of(i);
+    const Chart& chart = unwrap.charts[unwrap.texelChart[i]];
+    const std::uint32_t triangle = r.points[0].triangle;
+    r.side = unwrap.triangleCharts[triangle].front == unwrap.texelChart[i] ? 1.0f : -1.0f;
+    r.normal = chart.normal;
+    r.planar = chart.planar;
+    for (const SurfacePoint& p : r.points) r.centre += positionAt(scene, p.triangle, p.barycentric);
+    r.centre /= static_cast<float>(r.points.size());
+    r.radius = chart.planar ? chart.texelSize() : 2 * chart.texelSize();
+    r.key = unwrap.texels[i];
+    return r;
+}
+
+DirectEstimate LightGatherer::irradiance(const LightReceiver& receiver, int samples,
+                                         std::uint64_t pass) {
+    counts_ = Counts::seen;
+    return estimateAll(receiver, samples, pass);
+}
+
+Vec3 LightGatherer::irradianceBlocked(const LightReceiver& receiver, int samples) {
+    counts_ = Counts::blockedByExtra;
+    return estimateAll(receiver, samples, 0).value;
+}
+
+DirectEstimate LightGatherer::estimateAll(const LightReceiver& receiver, int samples,
+                                          std::uint64_t pass) {
+    effects_.clear();
+    float sum = 0;
+    for (const LightImage& image : sources_.images)
+        sum += effects_.emplace_back(likelyEffect(receiver, image));
+    DirectEstimate total{.unoccluded = sum, .samples = samples};
+    if (sum <= 0) return total;
+    RandomStream random(seed_ + pass, receiver.key);
+    for (std::size_t i = 0; i < effects_.size(); ++i) {
+        if (effects_[i] <= 0) continue;
+        // Lights of some effect get a few samples whatever the others: those may be hidden.
+        // One of little effect is picked with a probability below one.
+        const float share = effects_[i] / sum;
+        const float wanted = std::max(static_cast<float>(samples) * share,
+                                      std::min(kMinSamples, kMinSamples * share / kLittle));
+        if (wanted < 1 && random.next() >= wanted) continue;
+        const int n = std::max(1, static_cast<int>(std::ceil(wanted)));
+        total.add(gather(receiver, sources_.images[i], n, random), std::max(1.0f, 1 / wanted));
+    }
+    return total;
+}
+
+/// Roughly the unoccluded irradiance's luminance; zero only if it certainly is.
+float LightGatherer::likelyEffect(const LightReceiver& r, const LightImage& image) const {
+    const Light& light = sources_.lights[image.light];
+    const Vec3 toLight = image.imageFromWorld.point(light.centre) - r.centre;
+    const float reach = light.radius + r.radius;
+    const float squared = std::max(glm::dot(toLight, toLight), 0.25f * reach * reach);
+    const float distance = std::sqrt(squared), slack = std::min(1.0f, reach / distance);
+    if (r.planar && glm::dot(r.normal, toLight) < -reach) return 0;
+    const float cosReceiver = glm::dot(r.normal, toLight) / distance;
+    const float cosLight = -glm::dot(image.imageFromWorld.vector(light.normal), toLight) / distance;
+    const float spread =
+        light.planar ? 0.0f : std::acos(std::clamp(light.normalCosine, -1.0f, 1.0f));
+    if (light.planar && cosLight < -slack) return 0;
+    if (image.depth > 0 && !mayBeSeenInMirror(r, image)) return 0;
+    const float facing = std::clamp(cosReceiver + 0.5f * slack, 0.02f, 1.0f);
+    const float emitting = std::clamp(cosLight + 0.5f * slack + spread, 0.02f, 1.0f);
+    return luminance(light.radiance * image.throughput) * light.area * facing * emitting / squared;
+}
+
+/// Whether lines from the receiver to the image may cross the rectangle of the first mirror.
+bool LightGatherer::mayBeSeenInMirror(const LightReceiver& r, const LightImage& image) const {
+    const Chart& mirror = unwrap_.charts[image.mirror[0]];
+    const Light& light = sources_.lights[image.light];
+    const Vec3 centre = image.imageFromWorld.point(light.centre);
+    const float plane = sources_.mirrorOffset[image.mirror[0]];
+    const float before = glm::dot(mirror.normal, r.centre) - plane;
+    const float behind = plane - glm::dot(mirror.normal, centre);
+    if (before < -r.radius || behind < -light.radius) return false;
+    const float share = std::max(before, 0.0f) / std::max(before + behind, 1e-20f);
+    const Vec2 crossing = mirror.texelCoordinates(r.centre + share * (centre - r.centre));
+    // How far the crossing moves as the ends move within their spheres, seen aslant.
+    const float cosine = std::max(before + behind, 1e-20f) / glm::distance(centre, r.centre);
+    const float reach = (share * light.radius + (1 - share) * r.radius) / cosine;
+    const Vec2 margin(reach * glm::length(mirror.uAxis), reach * glm::length(mirror.vAxis));
+    return crossing.x > -margin.x && crossing.x < mirror.width + margin.x &&
+           crossing.y > -margin.y && crossing.y < mirror.height + margin.y;
+}
+
+LightGatherer::Point LightGatherer::surfacePoint(const LightReceiver& r, std::size_t i) const {
+    const SurfacePoint& p = r.points[i];
+    Vec3 position = positionAt(*r.scene, p.triangle, p.barycentric);
+    Vec3 geometric = r.side * geometricNormal(*r.scene, p.triangle);
+    Vec3 shading = shadingNormalAt(*r.scene, p.triangle, p.barycentric);
+    if (glm::dot(shading, geometric) < 0) shading = -shading;
+    if (r.pose) {
+        position = r.pose->point(position);
+        geometric = r.pose->direction(geometric);
+        shading = r.pose->direction(shading);
+    }
+    return {position, shading, geometric};
+}
+
+/// Irradiance from one image by n samples.
+DirectEstimate LightGatherer::gather(const LightReceiver& r, const LightImage& image, int n,
+                                     RandomStream& random) {
+    if (hasFormFactor(sources_.lights[image.light])) return gatherByFormFactor(r, image, n, random);
+    const float reach = nearReach(r, image);
+    drawSamples(r, image, n, reach, random);
+    findVisible();
+    DirectEstimate estimate = meanOfSamples(n);
+    if (reach > 0) {
+        drawNearSamples(r, sources_.lights[image.light], n, reach, random);
+        estimate.add(meanOfSamples(n), 1);
+    }
+    return estimate;
+}
+
+DirectEstimate LightGatherer::meanOfSamples(int n) const {
+    const auto count = static_cast<float>(n);
+    Vec3 sum(0);
+    float squares = 0;
+    for (const Sample& s : samples_) {
+        const Vec3 contribution = s.geometry * s.throughput * s.radiance;
+        sum += contribution;
+        squares += luminance(contribution) * luminance(contribution);
+    }
+    const Vec3 mean = sum / count;
+    const float spread = squares / count - luminance(mean) * luminance(mean);
+    return {mean, std::max(0.0f, spread) / count};
+}
+
+/// The unoccluded part of a plain light is known exactly: only the share of it that is visible
+/// is sampled. Where no sample could tell, one half stands for it.
+DirectEstimate LightGatherer::gatherByFormFactor(const LightReceiver& r, const LightImage& image,
+                                                 int n, RandomStream& random) {
+    const Light& light = sources_.lights[image.light];
+    drawSamples(r, image, n, 0, random);
+    findVisible();
+    Vec3 throughput(0);
+    float geometry = 0, visible = 0;
+    for (const Sample& s : samples_) {
+        geometry += s.geometry;
+        throughput += s.geometry * s.throughput;
+        visible += maxComponent(s.throughput) > 0 ? s.geometry : 0;
+    }
+    const auto count = static_cast<float>(n);
+    const Vec3 unoccluded = light.radiance * kPi * formFactor(r, light, image);
+    if (geometry <= 0) {
+        if (counts_ == Counts::blockedByExtra) return {};
+        const Vec3 value = 0.5f * unoccluded * image.throughput;
+        return {value, luminance(value) * luminance(value)};
+    }
+    const Vec3 value = unoccluded * (throughput / geometry);
+    const float share = visible / geometry;
+    const float whole = luminance(value) / std::max(share, 0.5f / count);
+    return {value, whole * whole * share * (1 - share) / count};
+}
+
+/// Within this distance of the receiver a light is sampled by directions instead of points,
+/// among which 1/r² would leave few that matter; 0 if the light is farther.
+float LightGatherer::nearReach(const LightReceiver& r, const LightImage& image) const {
+    const Light& light = sources_.lights[image.light];
+    const float reach = kNearField * std::sqrt(light.area);
+    const Vec3 fromLight = r.centre - light.centre;
+    const bool isNear =
+        image.depth == 0 && glm::length(fromLight) < light.radius + reach + r.radius &&
+        (!light.planar || std::abs(glm::dot(light.normal, fromLight)) < reach + r.radius);
+    return isNear ? reach : 0;
+}
+
+/// Point j of n of the texel, stratified.
+LightGatherer::Point LightGatherer::pointOf(const LightReceiver& r, int j, int n,
+                                            float rotation) const {
+    const auto stratum = static_cast<std::size_t>((j + rotation) / n * r.points.size());
+    return surfacePoint(r, (stratum + r.key) % r.points.size());
+}
+
+/// What directions of the texel's points meet of the light within `reach`.
+void LightGatherer::drawNearSamples(const LightReceiver& r, const Light& light, int n, float reach,
+                                    RandomStream& random) {
+    const Vec2 shift = random.next2();
+    const float rotation = random.next();
+    samples_.clear();
+    for (int j = 0; j < n; ++j) {
+        const Point p = pointOf(r, j, n, rotation);
+        const Vec3 direction =
+            frameFromNormal(p.shading).toWorld(sampleCosineHemisphere(r2Point(j, shift)));
+        if (glm::dot(p.geometric, direction) <= 0) continue;
+        const Vec3 origin = p.position + rays_.epsilon() * p.geometric;
+        const Hit hit = rays_.closest({origin, direction, 0, reach});
+        if (!hit ||
+            !std::binary_search(light.triangles.begin(), light.triangles.end(), hit.triangle))
+            continue;
+        const bool front = glm::dot(geometricNormal(scene_, hit.triangle), direction) < 0;
+        if (front != light.front) continue;
+        if (extra_ && extraBlocks({origin, direction, 0, hit.t}) == (counts_ == Counts::seen))
+            continue;
+        const Vec3 radiance = emittedRadiance(scene_, scene_.material(hit.triangle),
+                                              uvAt(scene_, hit.triangle, hit.barycentric));
+        samples_.push_back({kPi / lobe(p.shading, p.geometric), radiance, Vec3(1)});
+    }
+}
+
+/// Pairs of a point of the texel and one of the light, both stratified, that face each other
+/// and are not nearer than `reach`.
+void LightGatherer::drawSamples(const LightReceiver& r, const LightImage& image, int n, float reach,
+                                RandomStream& random) {
+    const Light& light = sources_.lights[image.light];
+    const Vec2 shift = random.next2();
+    const float rotation = random.next();
+    samples_.clear();
+    shadowRays_.clear();
+    for (int j = 0; j < n; ++j) {
+        const Point p = pointOf(r, j, n, rotation);
+        const LightSample s = sampleLight(scene_, light, r2Point(j, shift));
+        if (glm::distance(p.position, s.point) < reach) continue;
+        const float g =
+            geometryTerm(p.position, p.shading, p.geometric, image.imageFromWorld.point(s.point),
+                         image.imageFromWorld.vector(s.normal)) /
+            s.density;
+        if (g <= 0) continue;
+        if (image.depth == 0) {
+            addShadowRay(p, s.point);
+            samples_.push_back({g, s.radiance, Vec3(1)});
+        } else {
+            samples_.push_back({g, s.radiance, followImage(p, image, s.point)});
+        }
+    }
+}
+
+/// Traces the shadow rays of samples_ (none if they went by mirrors).
+void LightGatherer::findVisible() {
+    if (counts_ == Counts::blockedByExtra) return keepBlockedByExtra();
+    blocked_.resize(shadowRays_.size());
+    rays_.occluded(shadowRays_, blocked_);
+    if (extra_) extra_(shadowRays_, blocked_);
+    for (std::size_t i = 0; i < blocked_.size(); ++i)
+        if (blocked_[i]) samples_[i].throughput = Vec3(0);
+}
+
+/// The room is asked only where something else is in the way, which is rare.
+void LightGatherer::keepBlockedByExtra() {
+    blockedByExtra_.assign(shadowRays_.size(), 0);
+    extra_(shadowRays_, blockedByExtra_);
+    for (std::size_t i = 0; i < shadowRays_.size(); ++i)
+        if (!blockedByExtra_[i] || rays_.occluded(shadowRays_[i])) samples_[i].throughput = Vec3(0);
+}
+
+bool LightGatherer::extraBlocks(const Ray& ray) {
+    std::uint8_t blocked = 0;
+    extra_({&ray, 1}, {&blocked, 1});
+    return blocked != 0;
+}
+
+/// Mean form factor over the texel's points; over four of a full one if they agree.
+float LightGatherer::formFactor(const LightReceiver& r, const Light& light,
+                                const LightImage& image) const {
+    if (r.points.size() == kLatinSquare.size() * kLatinSquare.size()) {
+        float sum = 0, least = 1, most = 0;
+        for (std::size_t i = 0; i < kLatinSquare.size(); ++i) {
+            const std::size_t k = kLatinSquare.size() * i + kLatinSquare[i];
+            const float f = formFactor(surfacePoint(r, k), light, image);
+            sum += f;
+            least = std::min(least, f);
+            most = std::max(most, f);
+        }
+        if (most - least < kAgreement * most) return sum / kLatinSquare.size();
+    }
+    float sum = 0;
+    for (std::size_t i = 0; i < r.points.size(); ++i)
+        sum += formFactor(surfacePoint(r, i), light, image);
+    return sum / static_cast<float>(r.points.size());
+}
+
+float LightGatherer::formFactor(const Point& p, const Light& light, const LightImage& image) const {
+    float sum = 0;
+    for (const std::uint32_t t : light.triangles) {
+        std::array<Vec3, 3> corner;
+        for (int c = 0; c < 3; ++c) corner[c] = image.imageFromWorld.point(scene_.position(t, c));
+        const Vec3 n = image.imageFromWorld.vector(light.normal);
+        const Vec3 fromLight = p.position - corner[0];
+        if (glm::dot(n, fromLight) <= kGrazing * glm::length(fromLight)) continue;
+        sum +=
+            triangleFormFactor(p.position, p.shading, p.geometric, corner[0], corner[1], corner[2]);
+    }
+    return sum / lobe(p.shading, p.geometric);
+}
+
+void LightGatherer::addShadowRay(const Point& p, const Vec3& y) {
+    const Vec3 origin = p.position + rays_.epsilon() * p.geometric;
+    const Vec3 d = y - origin;
+    shadowRays_.push_back({origin, d, 0, 1 - 2 * rays_.epsilon() / glm::length(d)});
+}
+
+/// Whether the line from p to the image of y crosses the rectangles of all its mirrors, which
+/// most do not: cheaper than to trace it.
+bool LightGatherer::mayCrossMirrors(const Vec3& p, const LightImage& image, const Vec3& y) const {
+    Vec3 from = p, to = image.imageFromWorld.point(y);
+    for (int k = 0; k < image.depth; ++k) {
+        const Chart& mirror = unwrap_.charts[image.mirror[k]];
+        const float plane = sources_.mirrorOffset[image.mirror[k]];
+        const float before = glm::dot(mirror.normal, from) - plane;
+        const float behind = plane - glm::dot(mirror.normal, to);
+        if (before <= 0 || behind <= 0) return false;
+        from += (before / (before + behind)) * (to - from);
+        const Vec2 crossing = mirror.texelCoordinates(from);
+        if (crossing.x < -kSlack || crossing.x > mirror.width + kSlack || crossing.y < -kSlack ||
+            crossing.y > mirror.height + kSlack)
+            return false;
+        to += 2 * behind * mirror.normal;
+    }
+    return true;
+}
+
+/// Product of the reflectances of the image's mirrors if the light's point y is seen over
+/// exactly them, else zero.
+Vec3 LightGatherer::followImage(const Point& p, const LightImage& image, const Vec3& y) {
+    if (!mayCrossMirrors(p.position, image, y)) return Vec3(0);
+    Vec3 throughput(1);
+    bool blockedByExtra = false;
+    Vec3 origin = p.position + rays_.epsilon() * p.geometric;
+    Vec3 direction = glm::normalize(image.imageFromWorld.point(y) - origin);
+    for (int k = 0; k < image.depth; ++k) {
+        const Hit hit = rays_.closest({origin, direction});
+        if (!hit) return Vec3(0);
+        if (extra_) blockedByExtra |= extraBlocks({origin, direction, 0, hit.t});
+        const Vec3 n = geometricNormal(scene_, hit.triangle);
+        const bool front = glm::dot(n, direction) < 0;
+        const TriangleCharts& charts = unwrap_.triangleCharts[hit.triangle];
+        if ((front ? charts.front : charts.back) != image.mirror[k]) return Vec3(0);
+        throughput *= mirrorReflectance(scene_, scene_.material(hit.triangle),
+                                        uvAt(scene_, hit.triangle, hit.barycentric));
+        origin =
+            positionAt(scene_, hit.triangle, hit.barycentric) + rays_.epsilon() * (front ? n : -n);
+        direction = glm::reflect(direction, n);
+    }
+    const Vec3 d = y - origin;
+    const Ray last{origin, d, 0, 1 - 2 * rays_.epsilon() / glm::length(d)};
+    if (extra_) blockedByExtra = blockedByExtra || extraBlocks(last);
+    if (blockedByExtra == (counts_ == Counts::seen)) return Vec3(0);
+    return rays_.occluded(last) ? Vec3(0) : throughput;
+}
+
+}  // namespace vlf

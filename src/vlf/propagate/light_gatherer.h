@@ -1,0 +1,104 @@
+#pragma once
+// Direct light at a point or a small piece of surface: samples of the emitters and of their images
+// in planar mirrors.
+
+#include "vlf/math/pose.h"
+#include "vlf/propagate/direct_refinement.h"
+#include "vlf/propagate/light_sources.h"
+#include "vlf/trace/ray_scene.h"
+#include "vlf/unwrap/unwrap.h"
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+namespace vlf {
+
+class RandomStream;
+
+/// What receives light: points of the surface of `scene`, which `pose` puts into the world.
+struct LightReceiver {
+    const Scene* scene = nullptr;
+    const Pose* pose = nullptr;  ///< null: `scene` is in the world
+    std::span<const SurfacePoint> points;
+    Vec3 centre{0}, normal{0};  ///< in the world
+    float radius = 0;
+    bool planar = true;     ///< else normals vary so much that the mean says little
+    float side = 1;         ///< -1: the side against the winding normals
+    std::uint64_t key = 0;  ///< of its random numbers
+};
+
+/// Entry i of unwrap.texels.
+LightReceiver texelReceiver(const Scene& scene, const Unwrap& unwrap, std::size_t i);
+
+/// Marks rays that something in the way of `lights` blocks, besides the room: blocked[i] = 1.
+/// Others are left alone.
+using ExtraOccluder = std::function<void(std::span<const Ray>, std::span<std::uint8_t> blocked)>;
+
+/// Samples the light of `sources`. Refers to what it is given; copies are for other threads.
+class LightGatherer {
+  public:
+    /// `scene`, `rays` and `unwrap` are those of the room, with the sources' emitters.
+    LightGatherer(const Scene& scene, const RayScene& rays, const Unwrap& unwrap,
+                  const LightSources& sources, std::uint64_t seed)
+        : scene_(scene), rays_(rays), unwrap_(unwrap), sources_(sources), seed_(seed) {}
+
+    /// Things in the room that its rays do not know of.
+    void setExtraOccluder(ExtraOccluder occluder) { extra_ = std::move(occluder); }
+
+    /// Irradiance by about `samples` shadow rays; `pass` tells independent estimates of the same
+    /// receiver apart.
+    DirectEstimate irradiance(const LightReceiver& receiver, int samples, std::uint64_t pass);
+
+    /// That part of the room's own irradiance there that the extra occluder takes away.
+    Vec3 irradianceBlocked(const LightReceiver& receiver, int samples);
+
+  private:
+    struct Point {
+        Vec3 position, shading, geometric;
+    };
+    struct Sample {
+        float geometry;
+        Vec3 radiance, throughput;  // throughput: of the mirrors on the way; 0 if occluded
+    };
+    enum class Counts { seen, blockedByExtra };
+
+    DirectEstimate estimateAll(const LightReceiver& r, int samples, std::uint64_t pass);
+    float likelyEffect(const LightReceiver& r, const LightImage& image) const;
+    bool mayBeSeenInMirror(const LightReceiver& r, const LightImage& image) const;
+    Point surfacePoint(const LightReceiver& r, std::size_t i) const;
+    Point pointOf(const LightReceiver& r, int j, int n, float rotation) const;
+    DirectEstimate gather(const LightReceiver& r, const LightImage& image, int n,
+                          RandomStream& random);
+    DirectEstimate gatherByFormFactor(const LightReceiver& r, const LightImage& image, int n,
+                                      RandomStream& random);
+    DirectEstimate meanOfSamples(int n) const;
+    float nearReach(const LightReceiver& r, const LightImage& image) const;
+    void drawNearSamples(const LightReceiver& r, const Light& light, int n, float reach,
+                         RandomStream& random);
+    void drawSamples(const LightReceiver& r, const LightImage& image, int n, float reach,
+                     RandomStream& random);
+    void findVisible();
+    void keepBlockedByExtra();
+    bool extraBlocks(const Ray& ray);
+    float formFactor(const LightReceiver& r, const Light& light, const LightImage& image) const;
+    float formFactor(const Point& p, const Light& light, const LightImage& image) const;
+    void addShadowRay(const Point& p, const Vec3& y);
+    bool mayCrossMirrors(const Vec3& p, const LightImage& image, const Vec3& y) const;
+    Vec3 followImage(const Point& p, const LightImage& image, const Vec3& y);
+
+    const Scene& scene_;
+    const RayScene& rays_;
+    const Unwrap& unwrap_;
+    const LightSources& sources_;
+    std::uint64_t seed_;
+    ExtraOccluder extra_;
+    Counts counts_ = Counts::seen;
+    std::vector<float> effects_;
+    std::vector<Ray> shadowRays_;
+    std::vector<std::uint8_t> blocked_, blockedByExtra_;
+    std::vector<Sample> samples_;
+};
+
+}  // namespace vlf
