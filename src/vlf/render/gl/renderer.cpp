@@ -7,15 +7,16 @@
 #include "vlf/render/gl/gl_state.h"
 #include "vlf/render/gl/gpu_memory.h"
 #include "vlf/render/gl/hit_buffers.h"
+#include "vlf/render/gl/object_pass.h"
 #include "vlf/render/gl/packed_radiance.h"
 #include "vlf/render/gl/room_geometry.h"
+#include "vlf/render/gl/room_vertex_array.h"
 #include "vlf/render/gl/scene_textures.h"
 #include "vlf/render/gl/shader_library.h"
 #include "vlf/render/gl/tone_data.h"
 #include "vlf/trace/ray_scene.h"
 
 #include <algorithm>
-#include <cstddef>
 #include <map>
 #include <vector>
 
@@ -31,29 +32,6 @@ using namespace shared;
 constexpr float kTolerance = 5;
 
 constexpr float kNearest = 1e-3f;  ///< the near plane, of the field's radius
-
-VertexArray makeRoomVertexArray(const Buffer& vertices, const Buffer& indices) {
-    VertexArray array = makeVertexArray();
-    const GLuint id = array.id();
-    glVertexArrayVertexBuffer(id, 0, vertices.id(), 0, sizeof(RoomVertex));
-    glVertexArrayElementBuffer(id, indices.id());
-    const auto floats = [&](GLuint attribute, int count, std::size_t offset) {
-        glVertexArrayAttribFormat(id, attribute, count, GL_FLOAT, GL_FALSE,
-                                  static_cast<GLuint>(offset));
-    };
-    floats(kPositionAttribute, 3, offsetof(RoomVertex, position));
-    glVertexArrayAttribFormat(id, kGeometricNormalAttribute, 2, GL_SHORT, GL_TRUE,
-                              offsetof(RoomVertex, geometricNormal));
-    floats(kUvAttribute, 2, offsetof(RoomVertex, uv));
-    floats(kAtlasUvAttribute, 2, offsetof(RoomVertex, atlasUv));
-    glVertexArrayAttribIFormat(id, kMirrorAttribute, 1, GL_UNSIGNED_INT,
-                               offsetof(RoomVertex, mirror));
-    for (int a = kPositionAttribute; a <= kMirrorAttribute; ++a) {
-        glVertexArrayAttribBinding(id, static_cast<GLuint>(a), 0);
-        glEnableVertexArrayAttrib(id, static_cast<GLuint>(a));
-    }
-    return array;
-}
 
 void requireLimit(std::uint64_t needed, GLenum limit, const std::string& what) {
     GLint most = 0;
@@ -104,7 +82,8 @@ struct Renderer::Impl {
           lightField(field),
           shaders(options.shaderFolder),
           textures(scene),
-          fit(field, textureSide(options)) {
+          fit(field, textureSide(options)),
+          objects(shaders, hits) {
         if (field.triangleCharts.size() != scene.triangles.size())
             throw InputError("the light field belongs to another scene: bake this one");
         const RoomGeometry room = makeRoomGeometry(scene, fit.layout());
@@ -200,6 +179,7 @@ struct Renderer::Impl {
             d.emplace("MIRROR", traced ? "\"traced_reflection.glsl\"" : "\"radiance_field.glsl\"");
         if (batch.mirror && !traced && settings.lookup == LookupKind::plain)
             d.emplace("PLAIN", "1");
+        if (batch.mirror && !objects.empty()) d.emplace("OBJECTS", "1");
         if (batch.mirror && !traced && fourATexel) d.emplace("FOUR_A_TEXEL", "1");
         return d;
     }
@@ -208,7 +188,7 @@ struct Renderer::Impl {
         if (!showsRadiance(mode)) {
             if (!drawings) drawings.emplace(scene, lightField, shaders);
         } else if (mode == DisplayMode::raytraced) {
-            if (!hits) loadHits();
+            if (!hits.hasRoom()) loadHits();
         } else if (mode != DisplayMode::field) {
             throw InputError("mode progressive takes many calls: it is ProgressiveRenderer's");
         } else if (!canLookUp) {
@@ -220,8 +200,18 @@ struct Renderer::Impl {
 
     void loadHits() {
         const LightField layout = fit.layout();
-        hits.emplace(scene, layout.charts, layout.triangleCharts, mirrorTriangles);
-        memory.hits = hits->bytes();
+        hits.loadRoom(scene, layout.charts, layout.triangleCharts, mirrorTriangles);
+        objects.hitsReloaded();
+        memory.hits = hits.bytes();
+    }
+
+    void updateObjects(const DynamicRoom& room) {
+        objects.update(room);
+        if (room.irradianceVersion() != roomVersion) loadIrradiance(room.irradiance());
+        roomVersion = room.irradianceVersion();
+        memory.hits = hits.bytes();
+        memory.objects = objects.bytes();
+        ++lightChanges;
     }
 
     void draw(const View& view, const RenderSettings& settings, GLuint framebuffer) {
@@ -242,6 +232,11 @@ struct Renderer::Impl {
 
     void drawRoom(const View& view, const RenderSettings& settings, GLuint framebuffer) {
         prepare(view, framebuffer);
+        if (!objects.empty()) {
+            objects.bind();
+            objects.draw(settings);
+        }
+        glBindVertexArray(vertexArray.id());
         for (std::size_t i = 0; i < batches.size(); ++i) drawBatch(i, settings);
     }
 
@@ -250,8 +245,10 @@ struct Renderer::Impl {
         const auto drawTriangles = [&] {
             glBindVertexArray(vertexArray.id());
             glDrawElements(GL_TRIANGLES, indexCount, GL_UNSIGNED_INT, nullptr);
+            objects.drawTriangles(shaders.program("depth", {{"OBJECT", "1"}}));
         };
-        drawings->wireframe(view, settings.normals, drawTriangles, framebuffer);
+        const auto drawLines = [&](LinePass& lines) { objects.drawLines(lines, settings.normals); };
+        drawings->wireframe(view, settings.normals, drawTriangles, drawLines, framebuffer);
     }
 
     void drawDiagram(const View& view, const RenderSettings& settings, GLuint framebuffer) {
@@ -294,13 +291,12 @@ struct Renderer::Impl {
         glClearColor(0, 0, 0, 1);
         glClearDepthf(1);
         glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-        glBindVertexArray(vertexArray.id());
         glBindBufferBase(GL_UNIFORM_BUFFER, kViewBlock, viewBuffer.id());
         for (int unit = 0; unit < kUnits; ++unit) glBindSampler(static_cast<GLuint>(unit), 0);
         glBindTextureUnit(kIrradianceUnit, atlas.id());
         glBindTextureUnit(kElementUnit, elementTexture.id());
         glBindTextureUnit(kRecordUnit, recordTexture.id());
-        if (hits) hits->bind();
+        hits.bind();
     }
 
     void drawBatch(std::size_t i, const RenderSettings& settings) {
@@ -310,6 +306,7 @@ struct Renderer::Impl {
         (batch.cull ? glEnable : glDisable)(GL_CULL_FACE);
         textures.bind(kDiffuseUnit, material.diffuseTexture);
         textures.bind(kEmissionUnit, material.emissionTexture);
+        textures.bind(kMirrorMapUnit, material.mirrorTexture);
         glBindBufferBase(GL_UNIFORM_BUFFER, kMaterialBlock, materialBuffers[i].id());
         glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(batch.indexCount), GL_UNSIGNED_INT,
                        reinterpret_cast<const void*>(4 * std::size_t{batch.firstIndex}));
@@ -326,7 +323,9 @@ struct Renderer::Impl {
     AtlasFit fit;
     TextureObject atlas, elementTexture, recordTexture;
     std::vector<std::uint32_t> mirrorTriangles;
-    std::optional<HitBuffers> hits;    ///< once reflections are traced
+    HitBuffers hits;  ///< of the room once reflections are traced
+    ObjectPass objects;
+    std::uint64_t roomVersion = 0;  ///< of the DynamicRoom's irradiance
     std::optional<Drawings> drawings;  ///< once one is drawn
     GLsizei indexCount = 0;
     ViewData viewData{};
@@ -358,6 +357,10 @@ Camera Renderer::diagramView(const DiagramParams& params, const Camera& camera, 
 void Renderer::updateIrradiance(const IrradianceAtlas& atlas) {
     impl_->loadIrradiance(atlas);
     ++impl_->lightChanges;
+}
+
+void Renderer::updateObjects(const DynamicRoom& room) {
+    impl_->updateObjects(room);
 }
 
 bool Renderer::canLookUp() const {

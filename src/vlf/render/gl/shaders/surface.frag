@@ -14,6 +14,10 @@ in vec2 atlasUv;
 in vec3 position;
 flat in vec3 geometricNormal;
 flat in uint mirror;
+#ifdef OBJECTS
+layout(binding = kMirrorMapUnit) uniform sampler2D mirrorMap;
+in vec3 mirrorNormal;
+#endif
 #include MIRROR
 #endif
 
