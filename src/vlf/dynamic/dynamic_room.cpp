@@ -15,7 +15,8 @@ namespace {
 
 constexpr int kMaxLines = 513;
 constexpr int kRounds = 2;
-constexpr int kShadowSamples = 4;  // for each of an object's own
+constexpr float kLeastAmbient = 5e-4f;  // of the room's mean irradiance
+constexpr int kShadowSamples = 4;       // for each of an object's own
 
 void check(const DynamicObject& object) {
     if (!object.model) throw InputError("an object needs a model");
@@ -118,6 +119,7 @@ struct DynamicRoom::Impl {
         for (std::size_t i = 0; i < loss.entries.size(); ++i)
             if (loss.loss[i] != Vec3(0))
                 shadows.push_back({room.unwrap.texels[loss.entries[i]], -loss.loss[i]});
+        bounce.clear();
         for (int round = 0; round < kRounds; ++round) {
             change.clear();
             for (const TexelChange& t : shadows) change.add(t.texel, t.irradiance);
@@ -126,9 +128,9 @@ struct DynamicRoom::Impl {
                 onObject.find(entries[numbers[i]].object, around);
                 onObject.addChange(change.change, change.touched, change.texels);
             }
-            if (round + 1 == kRounds && !shadows.empty())
-                bounce.add(shadows, scene, roomRays, room, coverage, {&rays, lit, kNoObject}, {},
-                           change);
+            if (round == 0)
+                bounce.find(change, scene, roomRays, room, coverage, {&rays, lit, kNoObject});
+            bounce.addTo(change, room, coverage, kLeastAmbient * luminance(mean));
             change.apply(room, roomLight, light, radiance);
         }
         coverage.fill(room, light);
