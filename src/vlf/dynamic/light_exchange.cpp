@@ -26,8 +26,6 @@ namespace {
 
 constexpr int kRounds = 1;              // of indirect light, beyond the first
 constexpr int kShadowSamples = 4;       // of a texel, for each of an object's own
-constexpr int kEmissionSamples = 8;     // of a texel towards an object that emits
-constexpr int kEmissionBounces = 3;     // by sweeps
 constexpr float kLeastAmbient = 5e-4f;  // of the room's mean irradiance
 
 class Stopwatch {
@@ -144,8 +142,11 @@ void LightExchange::findShadows() {
     }
     for (const auto& emitters : emitters_)
         if (emitters && takesDirectLight(*bodies_[emitters->number].object))
-            findEmittedLight(*emitters, scene_, roomRays_, texels_, coverage_,
-                             occluderOf(instances_), kEmissionSamples, emitted_);
+            findEmittedLight(*emitters, scene_, roomRays_, texels_, coverage_, instances_,
+                             emitted_);
+    if (emitted_.empty()) return;
+    if (!sweep_) sweep_.emplace(litRoom());
+    sweep_->bounce(litRoom(), emitted_);
 }
 
 void LightExchange::exchange(const Surroundings& around) {
@@ -171,11 +172,7 @@ void LightExchange::changeRoom(bool bouncing) {
         bounce_.find(change_, scene_, roomRays_, texels_, coverage_,
                      {&instances_, lit_, kNoObject});
     bounce_.addTo(change_, texels_, coverage_, kLeastAmbient * luminance(meanIrradiance_));
-    if (!emitted_.empty()) {
-        if (!sweep_) sweep_.emplace(litRoom());
-        for (const TexelChange& t : emitted_) change_.add(t.texel, t.irradiance);
-        sweep_->add(emitted_, litRoom(), kEmissionBounces, change_);
-    }
+    for (const TexelChange& t : emitted_) change_.add(t.texel, t.irradiance);
     change_.apply(texels_, roomLight_, light_, radiance_);
 }
 

@@ -109,16 +109,9 @@ void ObjectLight::findDirect(const DynamicObject& object, const Surroundings& ar
     const std::size_t blocks = (receivers.size() + kReceiversPerBlock - 1) / kReceiversPerBlock;
     const RoomTexels& room = around.room.texels;
     parallelFor(blocks, 1, [&](std::size_t block) {
-        std::vector<LightGatherer> gatherers;
-        gatherers.emplace_back(around.room.scene, around.room.rays, room.unwrap, room.sources, 0);
-        for (const auto& emitters : around.emitters) {
-            if (!emitters || emitters->number == number_) continue;
-            gatherers.emplace_back(emitters->posed, around.room.rays, room.unwrap,
-                                   emitters->sources, 0);
-            gatherers.back().emittersAreElsewhere();
-        }
-        for (LightGatherer& gatherer : gatherers)
-            gatherer.setExtraOccluder(occluderOf(around.instances));
+        LightGatherer gatherer(around.room.scene, around.room.rays, room.unwrap, room.sources, 0);
+        gatherer.setExtraOccluder(occluderOf(around.instances));
+        EmittedLight emitted(around.room.rays, around.instances);
         const std::size_t end = std::min(receivers.size(), (block + 1) * kReceiversPerBlock);
         for (std::size_t r = block * kReceiversPerBlock; r < end; ++r) {
             direct_[r] = Vec3(0);
@@ -128,8 +121,13 @@ void ObjectLight::findDirect(const DynamicObject& object, const Surroundings& ar
             receiver.centre = object.pose.point(receiver.centre);
             receiver.normal = object.pose.direction(receiver.normal);
             receiver.radius *= object.pose.scale;
-            for (LightGatherer& gatherer : gatherers)
-                direct_[r] += gatherer.irradiance(receiver, object.settings.directSamples, 0).value;
+            direct_[r] = gatherer.irradiance(receiver, object.settings.directSamples, 0).value;
+            for (const auto& emitters : around.emitters)
+                if (emitters && emitters->number != number_)
+                    direct_[r] += emitted.irradiance(emitters->points,
+                                                     object.pose.point(receivers.position[r]),
+                                                     object.pose.direction(receivers.normal[r]),
+                                                     object.pose.direction(receivers.geometric[r]));
         }
     });
 }
