@@ -157,7 +157,7 @@ struct Seen {
 };
 
 /// What comes along a ray from the room or, by diffuse reflection, from the knot.
-Seen fieldPath(const Room& room, const ObjectMesh& mesh, const Pose& pose, SightTracer& sights,
+Seen fieldPath(const Room& room, const ObjectMesh& mesh, const Pose& pose, SightTracer& tracer,
                Ray ray, RandomStream& random) {
     Vec3 throughput(1);
     for (int bounces = 0; bounces < 20; ++bounces) {
@@ -171,7 +171,10 @@ Seen fieldPath(const Room& room, const ObjectMesh& mesh, const Pose& pose, Sight
         ray.direction = frameFromNormal(normal).toWorld(sampleCosineHemisphere(random.next2()));
     }
     Seen seen;
-    for (const Sight& sight : sights.trace(std::span(&ray, 1))) {
+    thread_local Sights sights;
+    tracer.trace(std::span(&ray, 1), sights);
+    if (sights.texel[0] != kNoTexel) seen.reflected = throughput * room.radiance[sights.texel[0]];
+    for (const Sight& sight : sights.others) {
         const Vec3 share = throughput * sight.throughput;
         seen.reflected += share * diffuseRadiance(sight, room.radiance, {});
         seen.emitted += share * sight.emission;
@@ -198,7 +201,7 @@ std::vector<Truth> findTruth(const Room& room, const std::shared_ptr<const Objec
             pose.direction(mesh.scene.normals[mesh.scene.triangles[triangle].vertex[0]]);
         const Vec3 face = geometricNormal(scene, point.triangle);
         const Vec3 from = positionAt(scene, point.triangle, place) + rays.epsilon() * face;
-        SightTracer sights(room.scene, room.rays, room.texels);
+        SightTracer tracer(room.scene, room.rays, room.texels);
         Mean field, indirect, traced;
         for (int k = 0; k < paths; ++k) {
             RandomStream random(k, i);
@@ -206,7 +209,7 @@ std::vector<Truth> findTruth(const Room& room, const std::shared_ptr<const Objec
             if (const auto e = integrator.irradiance(point, everywhere, random)) traced.add(*e);
             const Vec3 d = frameFromNormal(normal).toWorld(sampleCosineHemisphere(random.next2()));
             if (glm::dot(d, face) <= 0) continue;
-            const Seen seen = fieldPath(room, mesh, pose, sights, {from, d}, random);
+            const Seen seen = fieldPath(room, mesh, pose, tracer, {from, d}, random);
             field.add(kPi * (seen.reflected + seen.emitted));
             indirect.add(kPi * seen.reflected);
         }

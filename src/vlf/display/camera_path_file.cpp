@@ -1,15 +1,12 @@
 #include "vlf/display/camera_path_file.h"
 
-#include "vlf/base/error.h"
 #include "vlf/base/file.h"
+#include "vlf/base/json_element.h"
+#include "vlf/dynamic/scenario_json.h"
 
-#include <algorithm>
 #include <charconv>
-#include <initializer_list>
+#include <filesystem>
 #include <numbers>
-
-#include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 namespace vlf {
 
@@ -18,47 +15,10 @@ namespace {
 using nlohmann::json;
 
 constexpr const char* kFormat = "vlf camera path";
-constexpr int kVersion = 1;
+constexpr int kVersion = 1, kVersionWithObjects = 2;
 constexpr double kDegree = std::numbers::pi / 180;
 
-/// An element of a file.
-struct Element {
-    const json& value;
-    SourceLocation where;
-
-    [[noreturn]] void fail(const std::string& what) const { throw InputError(where, what); }
-
-    /// Throws unless the value is an object with exactly these members.
-    void requireMembers(std::initializer_list<const char*> names) const {
-        if (!value.is_object()) fail("must be an object");
-        for (const char* name : names)
-            if (!value.contains(name)) fail(fmt::format("has no \"{}\"", name));
-        for (const auto& [key, ignored] : value.items())
-            if (std::find(names.begin(), names.end(), key) == names.end())
-                fail(fmt::format("has \"{}\", which version {} does not know", key, kVersion));
-    }
-
-    /// Precondition: requireMembers named it.
-    Element member(const char* name) const {
-        const std::string prefix = where.element.empty() ? "" : where.element + ".";
-        return {value.at(name), {where.file, 0, prefix + name}};
-    }
-    Element item(std::size_t i) const {
-        return {value.at(i), {where.file, 0, fmt::format("{}[{}]", where.element, i)}};
-    }
-
-    double number() const {
-        if (!value.is_number()) fail("must be a number");
-        return value.get<double>();
-    }
-    Vec3 point() const {
-        if (!value.is_array() || value.size() != 3) fail("must be an array of three numbers");
-        const auto coordinate = [&](std::size_t i) { return static_cast<float>(item(i).number()); };
-        return {coordinate(0), coordinate(1), coordinate(2)};
-    }
-};
-
-CameraSample readSample(const Element& element) {
+CameraSample readSample(const JsonElement& element) {
     element.requireMembers({"seconds", "eye", "yaw", "pitch", "verticalFov"});
     CameraSample sample;
     sample.seconds = element.member("seconds").number();
@@ -69,17 +29,51 @@ CameraSample readSample(const Element& element) {
     return sample;
 }
 
-void requireFormat(const Element& root) {
+void requireFormat(const JsonElement& root) {
     if (!root.value.is_object() || !root.value.contains("format") ||
         root.value["format"] != kFormat)
         root.fail(fmt::format("is no camera path: it must hold an object with \"format\": \"{}\"",
                               kFormat));
     if (!root.value.contains("version")) root.fail("has no \"version\"");
     const json& version = root.value["version"];
-    if (!version.is_number_integer() || version != kVersion)
+    if (!version.is_number_integer() || (version != kVersion && version != kVersionWithObjects))
         root.member("version").fail(
-            fmt::format("must be {}; a file of a later version needs a later program", kVersion));
-    root.requireMembers({"format", "version", "camera"});
+            fmt::format("must be {} or {}; a file of a later version needs a later program",
+                        kVersion, kVersionWithObjects));
+    if (version == kVersion)
+        root.requireMembers({"format", "version", "camera"});
+    else
+        root.requireMembers({"format", "version", "camera", "objects"});
+}
+
+CameraPath readCamera(const JsonElement& camera) {
+    std::vector<CameraSample> samples;
+    for (std::size_t i = 0; i < camera.size("samples"); ++i)
+        samples.push_back(readSample(camera.item(i)));
+    return CameraPath(std::move(samples), camera.where.file);
+}
+
+std::string folderOf(const std::string& file) {
+    return std::filesystem::path(file).parent_path().string();
+}
+
+/// With models, if there is a library.
+Walk readFrom(std::string_view text, const std::string& name, ModelLibrary* library,
+              std::vector<std::string>* warnings) {
+    const json root = parseJson(text, name);
+    const JsonElement file{root, {name, 0, ""}};
+    requireFormat(file);
+    Walk walk{readCamera(file.member("camera")), {}};
+    if (!file.has("objects")) return walk;
+    const JsonElement objects = file.member("objects");
+    walk.objects = readObjects(objects, folderOf(name), {});
+    if (library) loadModels(objects, walk.objects, *library, *warnings);
+    return walk;
+}
+
+std::string contentOf(const std::string& file) {
+    const std::vector<std::uint8_t> bytes = readFile(file);
+    return {bytes.begin(), bytes.end()};
 }
 
 /// The shortest decimal number of degrees that is read back as this angle in radians.
@@ -94,28 +88,20 @@ std::string degrees(float radians) {
 
 }  // namespace
 
-CameraPath parseCameraPath(std::string_view text, const std::string& nameForErrors) {
-    json root;
-    try {
-        root = json::parse(text);
-    } catch (const json::exception& error) {
-        throw InputError({nameForErrors, 0, ""}, error.what());
-    }
-    const Element file{root, {nameForErrors, 0, ""}};
-    requireFormat(file);
-    const Element camera = file.member("camera");
-    if (!camera.value.is_array()) camera.fail("must be an array of samples");
-    std::vector<CameraSample> samples;
-    for (std::size_t i = 0; i < camera.value.size(); ++i)
-        samples.push_back(readSample(camera.item(i)));
-    return CameraPath(std::move(samples), nameForErrors);
+Walk parseWalk(std::string_view text, const std::string& name) {
+    return readFrom(text, name, nullptr, nullptr);
 }
 
-std::string toText(const CameraPath& path) {
+CameraPath parseCameraPath(std::string_view text, const std::string& name) {
+    return parseWalk(text, name).camera;
+}
+
+std::string toText(const Walk& walk, const std::string& name) {
+    const bool hasObjects = !walk.objects.objects.empty();
     std::string text = fmt::format("{{\n  \"format\": \"{}\",\n  \"version\": {},\n  \"camera\": [",
-                                   kFormat, kVersion);
+                                   kFormat, hasObjects ? kVersionWithObjects : kVersion);
     const char* separator = "\n";
-    for (const auto& [seconds, pose] : path.samples()) {
+    for (const auto& [seconds, pose] : walk.camera.samples()) {
         text += fmt::format(
             "{}    {{\"seconds\": {}, \"eye\": [{}, {}, {}], \"yaw\": {}, \"pitch\": {}, "
             "\"verticalFov\": {}}}",
@@ -123,17 +109,26 @@ std::string toText(const CameraPath& path) {
             degrees(pose.pitch), pose.verticalFov);
         separator = ",\n";
     }
-    return text + "\n  ]\n}\n";
+    text += "\n  ]";
+    if (hasObjects) text += ",\n  \"objects\": " + objectsToText(walk.objects, folderOf(name));
+    return text + "\n}\n";
+}
+
+Walk readWalk(const std::string& file, ModelLibrary& library, std::vector<std::string>& warnings) {
+    return readFrom(contentOf(file), file, &library, &warnings);
 }
 
 CameraPath readCameraPath(const std::string& file) {
-    const std::vector<std::uint8_t> bytes = readFile(file);
-    return parseCameraPath({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, file);
+    return parseCameraPath(contentOf(file), file);
+}
+
+void writeWalk(const std::string& file, const Walk& walk) {
+    const std::string text = toText(walk, file);
+    writeFile(file, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
 }
 
 void writeCameraPath(const std::string& file, const CameraPath& path) {
-    const std::string text = toText(path);
-    writeFile(file, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+    writeWalk(file, {path, {}});
 }
 
 }  // namespace vlf

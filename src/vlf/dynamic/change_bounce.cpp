@@ -12,95 +12,86 @@ namespace vlf {
 
 namespace {
 
-constexpr std::size_t kShotsPerBlock = 16;
-
-/// Flux that a texel has to send, W, and by how many rays.
-struct Shot {
-    std::uint32_t texel;
-    Vec3 flux;
-    int rays;
-};
-
-/// Flux that has come to a texel.
-struct Arrival {
-    std::uint32_t texel;
-    Vec3 flux;
-};
+constexpr std::size_t kRaysPerBlock = 256;
 
 float size(const Vec3& flux) {
     return luminance(glm::abs(flux));
 }
 
-/// The texels of the largest flux, those of less than half a ray left out. Returns all flux.
-float dealRays(const RoomTexels& room, const Coverage& coverage,
-               const std::vector<std::pair<std::uint32_t, Vec3>>& changes, int rays,
-               std::vector<Shot>& shots) {
-    shots.clear();
+}  // namespace
+
+/// Rays in proportion to flux; texels of less than half a ray send nothing.
+void ChangeBounce::deal(std::span<const TexelChange> sources, const RoomTexels& room,
+                        const Coverage& coverage, int rays) {
+    shots_.clear();
     float all = 0;
-    for (const auto& [texel, change] : changes) {
-        const Vec3 flux =
-            room.reflectance[texel] * change * (room.area[texel] * coverage.uncovered(texel));
-        shots.push_back({texel, flux, 0});
-        all += size(flux);
+    for (const auto& [texel, change] : sources) {
+        const float area = room.area[texel] * coverage.uncovered(texel);
+        shots_.push_back({texel, room.reflectance[texel] * change * area, 0});
+        all += size(shots_.back().flux);
     }
-    if (all <= 0) shots.clear();
-    for (Shot& shot : shots)
-        shot.rays = static_cast<int>(std::lround(static_cast<float>(rays) * size(shot.flux) / all));
-    std::erase_if(shots, [](const Shot& shot) { return shot.rays == 0; });
-    return all;
+    const float perRay = all / static_cast<float>(rays);
+    for (Shot& shot : shots_)
+        if (perRay > 0) shot.rays = static_cast<int>(std::lround(size(shot.flux) / perRay));
+    std::erase_if(shots_, [](const Shot& shot) { return shot.rays == 0; });
 }
 
-void addRays(const Scene& scene, const RayScene& roomRays, const RoomTexels& room,
-             const Coverage& coverage, const Shot& shot, std::vector<Ray>& rays) {
+void ChangeBounce::aim(const Shot& shot, const Scene& scene, float epsilon, const RoomTexels& room,
+                       const Coverage& coverage) {
     const std::uint32_t entry = room.entryOf[shot.texel];
-    const LightReceiver texel = texelReceiver(scene, room.unwrap, entry);
-    const auto points = coverage.points(room, entry);
+    const std::span<const SurfacePoint> points = coverage.points(room, entry);
+    const std::uint32_t chart = room.unwrap.texelChart[entry];
     const Vec2 shift = RandomStream(0, shot.texel).next2();
     for (int k = 0; k < shot.rays; ++k) {
         const SurfacePoint& p = points[static_cast<std::size_t>(k) % points.size()];
-        const Vec3 normal = texel.side * geometricNormal(scene, p.triangle);
-        rays.push_back({positionAt(scene, p.triangle, p.barycentric) + roomRays.epsilon() * normal,
-                        frameFromNormal(normal).toWorld(sampleCosineHemisphere(
-                            r2Point(static_cast<std::uint32_t>(k), shift)))});
+        const RoomTriangle& triangle = room.triangles[p.triangle];
+        const float side = triangle.charts.front == chart ? 1.0f : -1.0f;
+        const Vec3 normal = side * glm::normalize(triangle.areaVector);
+        rays_.push_back({positionAt(scene, p.triangle, p.barycentric) + epsilon * normal,
+                         frameFromNormal(normal).toWorld(sampleCosineHemisphere(
+                             r2Point(static_cast<std::uint32_t>(k), shift)))});
+        carried_.push_back(shot.flux / static_cast<float>(shot.rays));
     }
 }
 
-}  // namespace
+void ChangeBounce::shoot(const Scene& scene, const RayScene& rays, const RoomTexels& room,
+                         const SightObjects& objects) {
+    const std::size_t blocks = (rays_.size() + kRaysPerBlock - 1) / kRaysPerBlock;
+    if (arrivals_.size() < blocks) arrivals_.resize(blocks);
+    for (std::vector<Arrival>& block : arrivals_) block.clear();
+    parallelFor(blocks, 1, [&](std::size_t block) {
+        const std::size_t first = block * kRaysPerBlock;
+        const std::size_t count = std::min(kRaysPerBlock, rays_.size() - first);
+        SightTracer tracer(scene, rays, room);
+        tracer.setObjects(objects);
+        thread_local Sights sights;
+        tracer.trace({rays_.data() + first, count}, sights);
+        for (std::size_t i = 0; i < count; ++i)
+            if (sights.texel[i] != kNoTexel)
+                arrivals_[block].push_back({sights.texel[i], carried_[first + i]});
+        for (const Sight& sight : sights.others)
+            if (sight.texel != kNoTexel && sight.covered)
+                arrivals_[block].push_back(
+                    {sight.texel, sight.throughput * carried_[first + sight.ray]});
+    });
+}
 
-void bounceChange(const Scene& scene, const RayScene& rays, const RoomTexels& room,
-                  const Coverage& coverage, const SightObjects& objects,
-                  const BounceParams& params, RoomChange& change) {
-    std::vector<std::pair<std::uint32_t, Vec3>> changes;
-    for (const std::uint32_t t : change.texels) changes.emplace_back(t, change.change[t]);
-    std::vector<Shot> shots;
-    float first = 0;
+void ChangeBounce::add(std::span<const TexelChange> sources, const Scene& scene,
+                       const RayScene& rays, const RoomTexels& room, const Coverage& coverage,
+                       const SightObjects& objects, const BounceParams& params,
+                       RoomChange& change) {
     for (int bounce = 0; bounce < params.bounces; ++bounce) {
-        const float flux = dealRays(room, coverage, changes, params.rays, shots);
-        if (bounce == 0) first = flux;
-        if (flux <= params.tolerance * first) return;
-        const std::size_t blocks = (shots.size() + kShotsPerBlock - 1) / kShotsPerBlock;
-        std::vector<std::vector<Arrival>> arrivals(blocks);
-        parallelFor(blocks, 1, [&](std::size_t block) {
-            std::vector<Ray> queue;
-            std::vector<Vec3> carried;
-            const std::size_t end = std::min(shots.size(), (block + 1) * kShotsPerBlock);
-            for (std::size_t i = block * kShotsPerBlock; i < end; ++i) {
-                addRays(scene, rays, room, coverage, shots[i], queue);
-                carried.resize(queue.size(), shots[i].flux / static_cast<float>(shots[i].rays));
-            }
-            SightTracer tracer(scene, rays, room);
-            tracer.setObjects(objects);
-            for (const Sight& sight : tracer.trace(queue))
-                if (sight.texel != kNoTexel && sight.covered)
-                    arrivals[block].push_back({sight.texel, sight.throughput * carried[sight.ray]});
-        });
-        changes.clear();
-        for (const std::vector<Arrival>& block : arrivals)
+        deal(bounce == 0 ? sources : std::span<const TexelChange>(next_), room, coverage,
+             params.rays);
+        rays_.clear(), carried_.clear(), next_.clear();
+        for (const Shot& shot : shots_) aim(shot, scene, rays.epsilon(), room, coverage);
+        shoot(scene, rays, room, objects);
+        for (const std::vector<Arrival>& block : arrivals_)
             for (const Arrival& a : block) {
                 const float area = room.area[a.texel] * coverage.uncovered(a.texel);
                 if (area <= 0) continue;
+                next_.push_back({a.texel, a.flux / area});
                 change.add(a.texel, a.flux / area);
-                changes.emplace_back(a.texel, a.flux / area);
             }
     }
 }

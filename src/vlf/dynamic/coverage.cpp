@@ -44,8 +44,7 @@ bool isCovered(const Vec3& point, const Vec3& normal, float gap, const RayInstan
     if (!found) return false;
     if (found.hit.t < 2 * gap) return true;
     const LitObject& object = lit[found.instance];
-    const Vec3 winding =
-        object.pose.direction(areaVector(object.mesh->scene, found.hit.triangle));
+    const Vec3 winding = object.pose.direction(areaVector(object.mesh->scene, found.hit.triangle));
     return object.mesh->closed && glm::dot(winding, normal) > 0;
 }
 
@@ -75,6 +74,28 @@ void Coverage::find(const Scene& scene, const RayScene& roomRays, const RoomTexe
             static_cast<float>(left) / static_cast<float>(texel.points.size());
         entries_.push_back(i);
         first_.push_back(static_cast<std::uint32_t>(points_.size()));
+    }
+}
+
+void Coverage::fill(const RoomTexels& room, IrradianceAtlas& light) const {
+    const Unwrap& unwrap = room.unwrap;
+    for (const std::uint32_t i : entries_) {
+        const std::uint32_t texel = unwrap.texels[i];
+        if (uncovered_[texel] > 0) continue;
+        const Chart& chart = unwrap.charts[unwrap.texelChart[i]];
+        const std::uint32_t x = texel % unwrap.atlasWidth, y = texel / unwrap.atlasWidth;
+        Vec3 sum(0);
+        int count = 0;
+        for (std::uint32_t v = std::max(chart.y, y - 1);
+             v <= std::min(chart.y + chart.height - 1, y + 1); ++v)
+            for (std::uint32_t u = std::max(chart.x, x - 1);
+                 u <= std::min(chart.x + chart.width - 1, x + 1); ++u) {
+                const std::uint32_t t = v * unwrap.atlasWidth + u;
+                if (room.source[t] != t || uncovered_[t] <= 0) continue;
+                sum += light.irradiance[t];
+                ++count;
+            }
+        if (count > 0) light.irradiance[texel] = sum / static_cast<float>(count);
     }
 }
 

@@ -4,6 +4,7 @@
 
 #include "vlf/dynamic/lit_object.h"
 #include "vlf/dynamic/room_texels.h"
+#include "vlf/field/irradiance_atlas.h"
 #include "vlf/propagate/light_gatherer.h"
 #include "vlf/trace/ray_instances.h"
 
@@ -27,6 +28,10 @@ class Coverage {
 
     /// The points of entry i of unwrap.texels that are not covered.
     std::span<const SurfacePoint> points(const RoomTexels& room, std::size_t i) const;
+
+    /// Texels that are covered whole take irradiance from neighbours in their chart that are not,
+    /// so that nothing of what they had shows at the edge of an object.
+    void fill(const RoomTexels& room, IrradianceAtlas& light) const;
 
     /// Entries of which less than all is uncovered, in ascending order.
     std::span<const std::uint32_t> entries() const { return entries_; }

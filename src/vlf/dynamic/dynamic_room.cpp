@@ -13,7 +13,7 @@ namespace vlf {
 
 namespace {
 
-constexpr int kMaxLines = 2049;
+constexpr int kMaxLines = 513;
 constexpr int kRounds = 2;
 constexpr int kShadowSamples = 4;  // for each of an object's own
 
@@ -50,7 +50,12 @@ struct DynamicRoom::Impl {
     };
 
     Impl(const Scene& s, const RayScene& r, const LightField& f)
-        : scene(s), roomRays(r), field(f), room(makeRoomTexels(s, r, f)), change(room), coverage(room) {
+        : scene(s),
+          roomRays(r),
+          field(f),
+          room(makeRoomTexels(s, r, f)),
+          change(room),
+          coverage(room) {
         setRoomLight(f.atlas);
     }
 
@@ -105,25 +110,28 @@ struct DynamicRoom::Impl {
         coverage.find(scene, roomRays, room, rays, lit, allSpheres);
         for (std::uint32_t i = 0; i < lit.size(); ++i)
             entries[numbers[i]].light->look(entries[numbers[i]].object, around, i);
-        const TexelLoss loss = spheres.empty()
-                                   ? TexelLoss{}
-                                   : findSoftShadows(scene, roomRays, room, coverage, spheres,
-                                                     occluderOf(casterRays),
-                                                     kShadowSamples * shadowSamples());
+        const TexelLoss loss = spheres.empty() ? TexelLoss{}
+                                               : findSoftShadows(scene, roomRays, room, coverage,
+                                                                 spheres, occluderOf(casterRays),
+                                                                 kShadowSamples * shadowSamples());
+        shadows.clear();
+        for (std::size_t i = 0; i < loss.entries.size(); ++i)
+            if (loss.loss[i] != Vec3(0))
+                shadows.push_back({room.unwrap.texels[loss.entries[i]], -loss.loss[i]});
         for (int round = 0; round < kRounds; ++round) {
             change.clear();
-            for (std::size_t i = 0; i < loss.texels.size(); ++i)
-                if (loss.loss[i] != Vec3(0))
-                    change.add(room.unwrap.texels[loss.texels[i]], -loss.loss[i]);
+            for (const TexelChange& t : shadows) change.add(t.texel, t.irradiance);
             for (std::uint32_t i = 0; i < lit.size(); ++i) {
                 ObjectLight& onObject = *entries[numbers[i]].light;
                 onObject.find(entries[numbers[i]].object, around);
                 onObject.addChange(change.change, change.touched, change.texels);
             }
-            if (!change.texels.empty())
-                bounceChange(scene, roomRays, room, coverage, {&rays, lit, kNoObject}, {}, change);
+            if (round + 1 == kRounds && !shadows.empty())
+                bounce.add(shadows, scene, roomRays, room, coverage, {&rays, lit, kNoObject}, {},
+                           change);
             change.apply(room, roomLight, light, radiance);
         }
+        coverage.fill(room, light);
         for (std::size_t i = 0; i < lit.size(); ++i) lit[i] = entries[numbers[i]].light->lit();
         ++lightVersion;
     }
@@ -152,6 +160,8 @@ struct DynamicRoom::Impl {
     std::vector<Sphere> spheres;  ///< around the casters
     RoomChange change;
     Coverage coverage;
+    std::vector<TexelChange> shadows;
+    ChangeBounce bounce;
     std::vector<Sphere> allSpheres;  ///< around the lit objects
     PointLighting points;
     bool changed = false;

@@ -161,7 +161,13 @@ void IncidentLightFinder::look(const Pattern& pattern, std::span<const Vec3> rad
         scratch.hits.clear();
     }
     const bool allImages = emitters_ == IncidentEmitters::none || pattern.emitters.withImages;
-    for (const Sight& sight : scratch.sights.trace(scratch.rays)) {
+    scratch.tracer.trace(scratch.rays, scratch.sights);
+    for (std::size_t i = 0; i < scratch.rays.size(); ++i) {
+        if (scratch.sights.texel[i] == kNoTexel) continue;
+        scratch.seen[i] = radiance[scratch.sights.texel[i]];
+        if (!scratch.hits.empty()) scratch.hits[i] = {};
+    }
+    for (const Sight& sight : scratch.sights.others) {
         const bool apart = emitters_ != IncidentEmitters::met && sight.emissionApart &&
                            (allImages || !sight.inMirror);
         Vec3 light = diffuseRadiance(sight, radiance, {});

@@ -50,9 +50,10 @@ class IncidentLightFinder {
     /// Memory of one thread, kept from call to call.
     struct Scratch {
         explicit Scratch(const IncidentLightFinder& finder)
-            : sights(finder.scene_, finder.rays_, finder.room_) {}
+            : tracer(finder.scene_, finder.rays_, finder.room_) {}
 
-        SightTracer sights;
+        SightTracer tracer;
+        Sights sights;
         std::vector<Ray> rays;
         std::vector<InstanceHit> hits;
         std::vector<std::uint8_t> blocked, blockedByObjects;

@@ -12,9 +12,9 @@
 
 namespace vlf {
 
-/// Irradiance lost by entry texels[i] of room.unwrap.texels, W·m⁻² >= 0.
+/// Irradiance that entries of room.unwrap.texels lose, W·m⁻² >= 0.
 struct TexelLoss {
-    std::vector<std::uint32_t> texels;
+    std::vector<std::uint32_t> entries;
     std::vector<Vec3> loss;
 };
 

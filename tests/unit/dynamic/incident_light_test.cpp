@@ -187,7 +187,10 @@ TEST(IncidentLight, GivesTheIrradianceOfABakedRoomBetterWithEveryOtherBand) {
         for (std::uint32_t i = 0; i < 16384; ++i)
             around.push_back({point, sampleUniformSphere(r2Point(i, Vec2(0.5f)))});
         std::vector<Vec3> seen(around.size(), Vec3(0));
-        for (const Sight& s : scratch.sights.trace(around))
+        scratch.tracer.trace(around, scratch.sights);
+        for (std::size_t k = 0; k < around.size(); ++k)
+            if (scratch.sights.texel[k] != kNoTexel) seen[k] = radiance[scratch.sights.texel[k]];
+        for (const Sight& s : scratch.sights.others)
             seen[s.ray] += s.throughput * (diffuseRadiance(s, radiance, {}) + s.emission);
         Sh<Vec3> light = finder.at(point, radiance, scratch);
         for (int order = kMaxShOrder; order > 0; --order) {

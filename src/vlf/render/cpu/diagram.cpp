@@ -97,7 +97,8 @@ Vec3 texelColor(const IrradianceAtlas& atlas, const Chart& chart, const Vec3& p,
 
 Image drawChart(const Scene& scene, const RayScene& rays, const LightField& field,
                 const DimmedRoom& room, std::uint32_t selected, const Camera& camera, int width,
-                int height, int antialias, Progress& progress, std::uint64_t& traced) {
+                int height, int antialias, Progress& progress, std::uint64_t& traced,
+                const DynamicRoom* objects) {
     const Chart& chart = field.charts[selected];
     const float brightest = brightestTexel(field.atlas, chart);
     const auto shade = [&](std::span<const Ray> r, std::span<Vec3> colors) {
@@ -108,6 +109,8 @@ Image drawChart(const Scene& scene, const RayScene& rays, const LightField& fiel
             if (!hits[i]) continue;
             const SidePoint point = pointFacing(scene, hits[i], r[i].direction);
             if (chartAt(field, point) != selected) continue;
+            if (objects && objects->rays().occluded({r[i].origin, r[i].direction, 0, hits[i].t}))
+                continue;
             const Vec3 p = positionAt(scene, point.triangle, point.barycentric);
             colors[i] = texelColor(field.atlas, chart, p, brightest);
         }
@@ -138,9 +141,11 @@ float brightestTexel(const IrradianceAtlas& atlas, const Chart& chart) {
 
 Image drawDiagram(const Scene& scene, const RayScene& rays, const LightField& field,
                   const Camera& camera, int width, int height, int antialias,
-                  const DiagramParams& params, Progress& progress, std::uint64_t& traced) {
+                  const DiagramParams& params, Progress& progress, std::uint64_t& traced,
+                  const DynamicRoom* objects) {
     const CameraRays requireView(camera, width, height);
-    const FieldShader shader(scene, rays, field);
+    const FieldShader shader(scene, rays, field, MirrorMethod::traced, LookupKind::depthCorrected,
+                             objects);
     if (params.kind == DiagramKind::subfield || params.kind == DiagramKind::tile)
         return drawSubfieldDiagram(scene, rays, field, camera, width, height, antialias, params,
                                    progress, traced);
@@ -152,7 +157,7 @@ Image drawDiagram(const Scene& scene, const RayScene& rays, const LightField& fi
     const std::uint32_t chart = chooseChart(scene, rays, field, params, camera);
     const DimmedRoom room(shader, camera, width, height, progress);
     return drawChart(scene, rays, field, room, chart, camera, width, height, antialias, progress,
-                     traced);
+                     traced, objects);
 }
 
 }  // namespace vlf

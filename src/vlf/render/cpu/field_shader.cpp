@@ -1,10 +1,11 @@
 #include "vlf/render/cpu/field_shader.h"
 
 #include "vlf/base/error.h"
+#include "vlf/render/cpu/object_surface.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
-#include <vector>
 
 namespace vlf {
 
@@ -13,6 +14,7 @@ namespace {
 /// Longest chain of mirrors followed, as in the bake.
 constexpr int kMaxReflections = 16;
 constexpr float kMinThroughput = 1e-4f;
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 bool hasMirrors(const Scene& scene) {
     return std::any_of(scene.triangles.begin(), scene.triangles.end(),
@@ -41,22 +43,72 @@ struct FieldShader::Queue {
     }
 };
 
+/// A point of the room that is seen.
+struct FieldShader::RoomPoint {
+    Surface surface;
+    std::uint32_t chart;
+    Vec3 own{0};          ///< radiance by emission and diffuse reflection
+    float remaining = 1;  ///< of all radiance, in hard shadows; of `own` already
+
+    Ray reflect(const Vec3& direction, float epsilon) const {
+        return {surface.position + epsilon * surface.geometricNormal,
+                mirrorDirection(surface, direction)};
+    }
+};
+
 std::uint32_t chartAt(const LightField& field, const SidePoint& point) {
     const TriangleCharts& charts = field.triangleCharts[point.triangle];
     return point.front ? charts.front : charts.back;
 }
 
 FieldShader::FieldShader(const Scene& scene, const RayScene& rays, const LightField& field,
-                         MirrorMethod mirrors, LookupKind lookup)
-    : scene_(scene), rays_(rays), field_(field), lookup_(lookup) {
+                         MirrorMethod mirrors, LookupKind lookup, const DynamicRoom* objects)
+    : scene_(scene),
+      rays_(rays),
+      field_(field),
+      mirrors_(mirrors),
+      lookup_(lookup),
+      objects_(objects && !objects->litObjects().empty() ? objects : nullptr),
+      shadows_(scene, rays, objects_ ? objects_->hardShadowLight() : nullptr,
+               objects_ ? hardShadowCasters(*objects_) : std::vector<HardShadows::Caster>{}) {
     if (field.triangleCharts.size() != scene.triangles.size())
         throw InputError("the light field belongs to another scene: bake this one");
-    if (mirrors == MirrorMethod::traced || !hasMirrors(scene)) return;
-    if (field.radiance.empty())
-        throw InputError(
-            "the light field holds no radiance of mirrors to look up: bake with "
-            "radiance directions, or trace reflections (mode raytraced)");
-    lookedUp_.emplace(field);
+    if (mirrors == MirrorMethod::traced) return;
+    if (hasMirrors(scene)) {
+        if (field.radiance.empty())
+            throw InputError(
+                "the light field holds no radiance of mirrors to look up: bake with "
+                "radiance directions, or trace reflections (mode raytraced)");
+        lookedUp_.emplace(field);
+    }
+    if (!objects_) return;
+    changed_.emplace(scene, field);
+    changed_->update(objects_->irradiance(), objects_->roomIrradiance());
+    fillProbes();
+}
+
+void FieldShader::fillProbes() {
+    std::vector<ReflectionProbe> probes;
+    for (const LitObject& object : objects_->litObjects()) {
+        ReflectionProbe& probe = probes.emplace_back();
+        if (!hasMirrors(object.mesh->scene)) continue;
+        const Vec3 centre = object.pose.point(boundingSphere(object.mesh->scene).centre);
+        fillProbe(probe, centre, kProbeSize,
+                  [&](std::span<const Ray> rays, std::span<Vec3> radiance, std::span<float> from) {
+                      std::vector<Hit> hits(rays.size());
+                      rays_.closest(rays, hits);
+                      for (std::size_t i = 0; i < rays.size(); ++i) {
+                          radiance[i] = hits[i] ? lookUpRoom(rays[i], hits[i]) : Vec3(0);
+                          from[i] = hits[i].t;
+                      }
+                  });
+    }
+    probes_ = std::move(probes);
+}
+
+/// The room's, with what the objects change.
+const IrradianceAtlas& FieldShader::atlas() const {
+    return objects_ ? objects_->irradiance() : field_.atlas;
 }
 
 std::uint64_t FieldShader::radiance(std::span<const Ray> rays, std::span<Vec3> radiance) const {
@@ -64,45 +116,119 @@ std::uint64_t FieldShader::radiance(std::span<const Ray> rays, std::span<Vec3> r
     Queue queue, next;
     for (std::size_t i = 0; i < rays.size(); ++i) queue.add({i, Vec3(1)}, rays[i]);
     std::vector<Hit> hits;
+    std::vector<InstanceHit> objectHits;
     std::uint64_t traced = 0;
     for (int reflections = 0; reflections <= kMaxReflections && !queue.rays.empty();
          ++reflections) {
         hits.resize(queue.rays.size());
         rays_.closest(queue.rays, hits);
+        closestObjects(queue.rays, objectHits);
         traced += hits.size();
         for (std::size_t i = 0; i < hits.size(); ++i)
-            if (hits[i]) follow(queue.paths[i], queue.rays[i], hits[i], radiance, next);
+            if (objects_ && objectHits[i] && objectHits[i].hit.t < hits[i].t)
+                followObject(queue.paths[i], queue.rays[i], objectHits[i], radiance, next);
+            else if (hits[i])
+                followRoom(queue.paths[i], queue.rays[i], hits[i], radiance, next);
         std::swap(queue, next);
         next.clear();
     }
     return traced;
 }
 
-void FieldShader::follow(const Path& path, const Ray& ray, const Hit& hit, std::span<Vec3> radiance,
-                         Queue& next) const {
-    const SidePoint point = pointFacing(scene_, hit, ray.direction);
-    const std::uint32_t chartIndex = chartAt(field_, point);
-    if (chartIndex == kNoChart) return;
-    const Chart& chart = field_.charts[chartIndex];
-    Surface surface = surfaceAt(scene_, point);
-    Vec3& seen = radiance[path.ray];
-    seen += path.throughput * ownRadiance(surface, chart);
-    const Vec3 throughput = path.throughput * surface.mirror;
-    if (maxComponent(throughput) < kMinThroughput) return;
-    if (lookedUp_) {
-        const MirrorPoint mirror{chartIndex, surface.position, surface.geometricNormal};
-        seen += path.throughput * lookedUp_->mirrorRadiance(mirror, -ray.direction, lookup_);
-        return;
-    }
-    if (chart.planar) surface.normal = surface.geometricNormal;
-    next.add({path.ray, throughput}, {surface.position + rays_.epsilon() * surface.geometricNormal,
-                                      mirrorDirection(surface, ray.direction)});
+void FieldShader::closestObjects(std::span<const Ray> rays, std::vector<InstanceHit>& hits) const {
+    if (!objects_) return;
+    hits.resize(rays.size());
+    objects_->rays().closest(rays, hits);
 }
 
-/// Radiance that leaves a surface by emission and diffuse reflection.
-Vec3 FieldShader::ownRadiance(const Surface& surface, const Chart& chart) const {
-    const Vec3 irradiance = field_.atlas.sample(chart, chart.texelCoordinates(surface.position));
-    return emittedRadiance(scene_, surface.point) + surface.diffuse * irradiance / kPi;
+std::optional<FieldShader::RoomPoint> FieldShader::roomPoint(const Ray& ray, const Hit& hit) const {
+    const SidePoint point = pointFacing(scene_, hit, ray.direction);
+    const std::uint32_t chartIndex = chartAt(field_, point);
+    if (chartIndex == kNoChart) return std::nullopt;
+    const Chart& chart = field_.charts[chartIndex];
+    RoomPoint seen{surfaceAt(scene_, point), chartIndex};
+    Surface& surface = seen.surface;
+    const Vec3 irradiance = atlas().sample(chart, chart.texelCoordinates(surface.position));
+    seen.own = emittedRadiance(scene_, point) + surface.diffuse * irradiance / kPi;
+    seen.remaining = shadows_.remaining(surface);
+    seen.own *= seen.remaining;
+    if (chart.planar) surface.normal = surface.geometricNormal;
+    return seen;
+}
+
+void FieldShader::followRoom(const Path& path, const Ray& ray, const Hit& hit,
+                             std::span<Vec3> radiance, Queue& next) const {
+    if (looksUp()) {
+        radiance[path.ray] = lookUpRoom(ray, hit);
+        return;
+    }
+    const std::optional<RoomPoint> point = roomPoint(ray, hit);
+    if (!point) return;
+    radiance[path.ray] += path.throughput * point->own;
+    const Vec3 throughput = point->remaining * path.throughput * point->surface.mirror;
+    if (maxComponent(throughput) < kMinThroughput) return;
+    next.add({path.ray, throughput}, point->reflect(ray.direction, rays_.epsilon()));
+}
+
+void FieldShader::followObject(const Path& path, const Ray& ray, const InstanceHit& hit,
+                               std::span<Vec3> radiance, Queue& next) const {
+    if (looksUp()) {
+        radiance[path.ray] = lookUpObject(ray, hit, 0);
+        return;
+    }
+    const LitObject& object = objects_->litObjects()[hit.instance];
+    const std::optional<Surface> surface = surfaceOf(object, hit.hit, ray.direction);
+    if (!surface) return;
+    radiance[path.ray] += path.throughput * ownRadiance(object, *surface);
+    const Vec3 throughput = path.throughput * surface->mirror;
+    if (maxComponent(throughput) < kMinThroughput) return;
+    next.add({path.ray, throughput},
+             {surface->position + rays_.epsilon() * surface->geometricNormal,
+              mirrorDirection(*surface, ray.direction)});
+}
+
+Vec3 FieldShader::lookUpRoom(const Ray& ray, const Hit& hit) const {
+    const std::optional<RoomPoint> point = roomPoint(ray, hit);
+    if (!point) return Vec3(0);
+    if (!lookedUp_ || maxComponent(point->surface.mirror) < kMinThroughput) return point->own;
+    return point->own + point->remaining * lookUpMirror(*point, ray);
+}
+
+/// What a mirror of the room shows.
+Vec3 FieldShader::lookUpMirror(const RoomPoint& point, const Ray& ray) const {
+    const Surface& surface = point.surface;
+    const SeenInMirror sight = lookedUp_->see(
+        {point.chart, surface.position, surface.geometricNormal}, -ray.direction, lookup_);
+    if (!objects_) return sight.radiance;
+    const Ray reflected = point.reflect(ray.direction, rays_.epsilon());
+    // What stands on a surface is nearer than it by less than the lookup's distances are exact.
+    const float behind = sight.distance > 0 ? sight.distance + changed_->tolerance() : kInfinity;
+    if (const InstanceHit hit = closestObject(reflected, behind))
+        return surface.mirror * lookUpObject(reflected, hit, 1);
+    if (sight.distance <= 0) return sight.radiance;
+    return sight.radiance * changed_->factor(reflected.origin, reflected.direction, sight.distance,
+                                             objects_->irradiance(), objects_->roomIrradiance());
+}
+
+/// An object after a number of reflections.
+Vec3 FieldShader::lookUpObject(const Ray& ray, const InstanceHit& hit, int reflections) const {
+    const LitObject& object = objects_->litObjects()[hit.instance];
+    const std::optional<Surface> surface = surfaceOf(object, hit.hit, ray.direction);
+    if (!surface) return Vec3(0);
+    const Vec3 own = ownRadiance(object, *surface);
+    if (probes_.empty() || reflections == kMaxReflections ||
+        maxComponent(surface->mirror) < kMinThroughput)
+        return own;
+    const Ray reflected{surface->position + rays_.epsilon() * surface->geometricNormal,
+                        mirrorDirection(*surface, ray.direction)};
+    const ProbeView room = lookUp(probes_[hit.instance], reflected.origin, reflected.direction);
+    const InstanceHit next = closestObject(reflected, room.distance + changed_->tolerance());
+    return own + surface->mirror *
+                     (next ? lookUpObject(reflected, next, reflections + 1) : room.radiance);
+}
+
+InstanceHit FieldShader::closestObject(const Ray& ray, float before) const {
+    return objects_->rays().closest({ray.origin, ray.direction, ray.tMin, before});
 }
 
 }  // namespace vlf

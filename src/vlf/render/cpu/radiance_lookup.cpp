@@ -176,25 +176,25 @@ MirrorLookup::View MirrorLookup::viewOf(std::uint32_t direction, float weight,
             weight};
 }
 
-Vec3 MirrorLookup::mirrorRadiance(const MirrorPoint& point, const Vec3& toEye,
-                                  LookupKind kind) const {
+SeenInMirror MirrorLookup::see(const MirrorPoint& point, const Vec3& toEye, LookupKind kind) const {
     const DirectionTriple triple = directions_.triple(toEye);
     Views views;
     for (int k = 0; k < 3; ++k) views[k] = viewOf(triple.index[k], triple.weight[k], point, toEye);
     return kind == LookupKind::plain ? plain(views) : depthCorrected(views);
 }
 
-Vec3 MirrorLookup::plain(const Views& views) const {
+SeenInMirror MirrorLookup::plain(const Views& views) const {
     Vec3 sum(0);
-    float weights = 0;
+    float weights = 0, distances = 0;
     for (const View& view : views)
         forFourCells(view.at(0), [&](int x, int y, float w) {
             const RadianceElement* e = view.element(x, y);
             if (!e) return;
             sum += w * view.weight * unpackRgb9e5(e->rgb9e5());
+            distances += w * view.weight * view.depth(*e);
             weights += w * view.weight;
         });
-    return weights > 0 ? sum / weights : Vec3(0);
+    return weights > 0 ? SeenInMirror{sum / weights, distances / weights} : SeenInMirror{};
 }
 
 MirrorLookup::Layer MirrorLookup::layerAt(const Views& views, float s) const {
@@ -221,7 +221,7 @@ MirrorLookup::Layer MirrorLookup::layerAt(const Views& views, float s) const {
     return layer;
 }
 
-Vec3 MirrorLookup::depthCorrected(const Views& views) const {
+SeenInMirror MirrorLookup::depthCorrected(const Views& views) const {
     std::array<float, 3> depths;
     std::transform(views.begin(), views.end(), depths.begin(),
                    [&](const View& view) { return view.firstSurface(tolerance_); });
@@ -230,7 +230,7 @@ Vec3 MirrorLookup::depthCorrected(const Views& views) const {
 
     CompressedMean layers;
     float left = 1;  // of the line of sight
-    float s = depths[0];
+    float s = depths[0], most = 0, distance = 0;
     for (int i = 0; i < kMaxLayers && left > 0; ++i) {
         const Layer layer = layerAt(views, s);
         const auto deeper = std::upper_bound(depths.begin(), depths.end(), s + tolerance_);
@@ -238,11 +238,12 @@ Vec3 MirrorLookup::depthCorrected(const Views& views) const {
         const bool last = i == kMaxLayers - 1 || next == kFar;
         const float coverage = last && layer.surface > 0 ? 1 : layer.coverage();
         layers.add(layer.radiance, left * coverage);
+        if (left * coverage > most) most = left * coverage, distance = s;
         left *= 1 - coverage;
         if (last) break;
         s = next;
     }
-    return left < 1 ? layers.mean() : plain(views);
+    return left < 1 ? SeenInMirror{layers.mean(), distance} : plain(views);
 }
 
 }  // namespace vlf

@@ -26,6 +26,12 @@ struct MirrorPoint {
     Vec3 normal{0};
 };
 
+/// What a mirror shows at a point.
+struct SeenInMirror {
+    Vec3 radiance{0};  ///< W·m⁻²·sr⁻¹, mirror reflectance included, without the diffuse part
+    float distance = 0;  ///< metres from the mirror along the reflected ray; 0: not known
+};
+
 /// Reads the radiance field of a light field, which must outlive it. Safe to use from several
 /// threads.
 class MirrorLookup {
@@ -33,9 +39,13 @@ class MirrorLookup {
     /// Precondition: !field.radiance.empty().
     explicit MirrorLookup(const LightField& field);
 
-    /// Specular radiance (W·m⁻²·sr⁻¹, mirror reflectance included, without the diffuse part) that
-    /// leaves `point` in unit direction `toEye`. Zero where the field has nothing of the chart.
-    Vec3 mirrorRadiance(const MirrorPoint& point, const Vec3& toEye, LookupKind kind) const;
+    /// What is seen at `point` from where unit direction `toEye` leads. Black where the field has
+    /// nothing of the chart.
+    SeenInMirror see(const MirrorPoint& point, const Vec3& toEye, LookupKind kind) const;
+
+    Vec3 mirrorRadiance(const MirrorPoint& point, const Vec3& toEye, LookupKind kind) const {
+        return see(point, toEye, kind).radiance;
+    }
 
   private:
     class View;
@@ -44,8 +54,8 @@ class MirrorLookup {
 
     View viewOf(std::uint32_t direction, float weight, const MirrorPoint& point,
                 const Vec3& toEye) const;
-    Vec3 plain(const Views& views) const;
-    Vec3 depthCorrected(const Views& views) const;
+    SeenInMirror plain(const Views& views) const;
+    SeenInMirror depthCorrected(const Views& views) const;
     Layer layerAt(const Views& views, float s) const;
 
     const RadianceField& radiance_;

@@ -18,7 +18,7 @@ Image renderRadiance(const Scene& scene, const RayScene& rays, const LightField&
     const FieldShader shader(
         scene, rays, field,
         params.mode == DisplayMode::field ? MirrorMethod::lookedUp : MirrorMethod::traced,
-        params.lookup);
+        params.lookup, params.objects);
     return supersample(
         CameraRays(params.camera, params.width, params.height), params.width, params.height,
         params.antialias,
@@ -31,10 +31,10 @@ Image render(const Scene& scene, const RayScene& rays, const LightField& field,
     switch (params.mode) {
         case DisplayMode::wireframe:
             return drawWireframe(scene, rays, params.camera, params.width, params.height,
-                                 params.normals, progress, traced);
+                                 params.normals, progress, traced, params.objects);
         case DisplayMode::diagram:
             return drawDiagram(scene, rays, field, params.camera, params.width, params.height,
-                               params.antialias, params.diagram, progress, traced);
+                               params.antialias, params.diagram, progress, traced, params.objects);
         default:
             return renderRadiance(scene, rays, field, params, progress, traced);
     }

@@ -1,6 +1,7 @@
 #pragma once
 // A still picture of a baked room on the CPU, in each of the display modes.
 
+#include "vlf/dynamic/dynamic_room.h"
 #include "vlf/render/cpu/diagram.h"
 #include "vlf/render/cpu/radiance_lookup.h"
 
@@ -29,6 +30,7 @@ struct StillParams {
     LookupKind lookup = LookupKind::depthCorrected;  ///< of mode field
     bool normals = false;                            ///< draw them in mode wireframe
     DiagramParams diagram;
+    const DynamicRoom* objects = nullptr;  ///< in the room, up to date; null: none
 };
 
 struct StillReport {

@@ -6,6 +6,7 @@
 #include "vlf/render/drawing/wireframe_lines.h"
 
 #include <algorithm>
+#include <iterator>
 #include <vector>
 
 namespace vlf {
@@ -30,8 +31,13 @@ struct Line {
 
 class StrokeMaker {
   public:
-    StrokeMaker(const Scene& scene, const RayScene& rays, const Projection& projection)
-        : rays_(rays), projection_(projection), cue_(boundingSphere(scene), projection.eye()) {}
+    /// `objects` may be null.
+    StrokeMaker(const Scene& scene, const RayScene& rays, const DynamicRoom* objects,
+                const Projection& projection)
+        : rays_(rays),
+          objects_(objects ? &objects->rays() : nullptr),
+          projection_(projection),
+          cue_(boundingSphere(scene), projection.eye()) {}
 
     /// Appends the strokes of a line; returns the number of rays traced.
     std::uint64_t add(const Line& line, std::vector<Stroke>& strokes) const {
@@ -52,7 +58,9 @@ class StrokeMaker {
         return count;
     }
 
-    bool visible(const Vec3& p) const { return !rays_.occluded(sightOf(p)); }
+    bool visible(const Vec3& p) const {
+        return !rays_.occluded(sightOf(p)) && !(objects_ && objects_->occluded(sightOf(p)));
+    }
 
   private:
     std::vector<std::uint8_t> findBlocked(const PictureSegment& segment, int count) const {
@@ -63,6 +71,9 @@ class StrokeMaker {
         }
         std::vector<std::uint8_t> blocked(sights.size());
         rays_.occluded(sights, blocked);
+        if (!objects_ || objects_->empty()) return blocked;
+        for (int i = 0; i < count; ++i)
+            if (!blocked[i]) blocked[i] = objects_->occluded(sights[i]);
         return blocked;
     }
 
@@ -71,9 +82,18 @@ class StrokeMaker {
     }
 
     const RayScene& rays_;
+    const RayInstances* objects_;
     const Projection& projection_;
     DepthCue cue_;
 };
+
+/// The object's mesh in the world.
+Scene posedMesh(const LitObject& object) {
+    Scene scene = object.mesh->scene;
+    for (Vec3& p : scene.positions) p = object.pose.point(p);
+    for (Vec3& n : scene.normals) n = object.pose.direction(n);
+    return scene;
+}
 
 std::vector<Line> edgeLines(const Scene& scene, const Vec3& eye) {
     std::vector<Line> lines;
@@ -124,12 +144,19 @@ void drawSegment(LineLayer& layer, const Projection& projection, const Vec3& fro
 }
 
 Image drawWireframe(const Scene& scene, const RayScene& rays, const Camera& camera, int width,
-                    int height, bool normals, Progress& progress, std::uint64_t& traced) {
+                    int height, bool normals, Progress& progress, std::uint64_t& traced,
+                    const DynamicRoom* objects) {
     const CameraRays requireView(camera, width, height);
     const Projection projection(camera, width, height);
-    const StrokeMaker maker(scene, rays, projection);
+    const StrokeMaker maker(scene, rays, objects, projection);
     std::vector<Line> lines = edgeLines(scene, camera.eye);
     if (normals) addNormals(scene, maker, camera.eye, lines);
+    if (objects)
+        for (const LitObject& object : objects->litObjects()) {
+            const Scene posed = posedMesh(object);
+            std::ranges::copy(edgeLines(posed, camera.eye), std::back_inserter(lines));
+            if (normals) addNormals(posed, maker, camera.eye, lines);
+        }
     std::vector<LineLayer> sheets(kColors.size(), LineLayer(width, height));
     traced = drawLines(lines, maker, sheets, progress);
     if (normals) traced += scene.triangles.size();
