@@ -51,8 +51,8 @@ struct PrtTransfer {
 /// to four times.
 PrtTransfer computeTransfer(const ObjectMesh& mesh, const PrtSettings& settings);
 
-/// Irradiance (W·m⁻², not below 0) at every sided vertex; `irradiance` has transfer.vertexCount
-/// entries. Incident radiance is in the object's space: the same all over the object,
+/// Irradiance (W·m⁻², not below 0) at every sided vertex, own light included; `irradiance` has
+/// transfer.vertexCount entries. Incident radiance is in the object's space: the same all over the object,
 void applyTransfer(const PrtTransfer& transfer, const Sh<Vec3>& radiance,
                    std::span<Vec3> irradiance);
 
