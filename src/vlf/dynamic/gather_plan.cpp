@@ -1,7 +1,9 @@
 #include "vlf/dynamic/gather_plan.h"
 
 #include "vlf/base/parallel.h"
+#include "vlf/dynamic/turned_set.h"
 #include "vlf/field/direction_set.h"
+#include "vlf/math/sampling.h"
 
 #include <algorithm>
 #include <map>
@@ -149,10 +151,11 @@ void assemble(const std::vector<DirectionPart>& parts, const std::vector<Vec3>& 
 GatherPlan makeGatherPlan(const ObjectReceivers& receivers, const Sphere& bounds,
                           const GatherPlanParams& params) {
     const DirectionSet set(params.lines);
+    const Mat3 turn = sampleUniformRotation(kTurn);
     GatherPlan plan;
     std::vector<float> weights;
     for (int d = 0; d < set.directionCount(); d += params.step) {
-        plan.directions.push_back(set.direction(static_cast<std::uint32_t>(d)));
+        plan.directions.push_back(turn * set.direction(static_cast<std::uint32_t>(d)));
         weights.push_back(set.weight(static_cast<std::uint32_t>(d)));
     }
     Clusters clusters;

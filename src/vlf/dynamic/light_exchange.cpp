@@ -152,6 +152,8 @@ void LightExchange::findShadows() {
 void LightExchange::exchange(const Surroundings& around) {
     const bool indirect = std::any_of(bodies_.begin(), bodies_.end(),
                                       [](const Body& body) { return body.light->changesRoom(); });
+    const bool changes = indirect || !shadows_.empty() || !emitted_.empty();
+    roomChanges_ = std::exchange(changedBefore_, changes) || changes;
     bounce_.clear();
     changeRoom(!indirect && !shadows_.empty());
     findObjectLight(around);
@@ -176,16 +178,23 @@ void LightExchange::changeRoom(bool bouncing) {
     change_.apply(texels_, roomLight_, light_, radiance_);
 }
 
-/// Those of precomputed transfer are many and quick, the others use all threads themselves.
+/// Those of precomputed transfer are many and quick, the others use all threads themselves. All
+/// light that comes to the first is found before any on them changes, and not again where nothing
+/// that they see has changed.
 void LightExchange::findObjectLight(const Surroundings& around) {
-    const auto isQuick = [](const Body& body) {
+    const auto isTransferred = [](const Body& body) {
         return body.object->settings.shading == Shading::prt;
     };
-    parallelFor(bodies_.size(), [&](std::size_t i) {
-        if (isQuick(bodies_[i])) bodies_[i].light->find(*bodies_[i].object, around);
-    });
+    const auto forTransferred = [&](auto work) {
+        parallelFor(bodies_.size(), [&](std::size_t i) {
+            const Body& body = bodies_[i];
+            if (isTransferred(body) && (body.stale || roomChanges_)) work(body);
+        });
+    };
+    forTransferred([&](const Body& body) { body.light->findIncident(*body.object, around); });
+    forTransferred([&](const Body& body) { body.light->find(*body.object, around); });
     for (const Body& body : bodies_)
-        if (!isQuick(body)) body.light->find(*body.object, around);
+        if (!isTransferred(body)) body.light->find(*body.object, around);
 }
 
 }  // namespace vlf

@@ -147,19 +147,16 @@ void ObjectLight::find(const DynamicObject& object, const Surroundings& around) 
                            irradiance_);
             break;
         case Shading::prt:
-            findByTransfer(object, around);
+            applyTransfer(*plan_->transfer, incident_, irradiance_);
             break;
     }
     publish();
 }
 
-void ObjectLight::findByTransfer(const DynamicObject& object, const Surroundings& around) {
+void ObjectLight::findIncident(const DynamicObject& object, const Surroundings& around) {
     if (!scratch_) scratch_ = std::make_unique<IncidentLightFinder::Scratch>(around.incident);
-    const PrtTransfer& transfer = *plan_->transfer;
-    around.incident.find(transfer.box, object.pose, around.radiance,
+    around.incident.find(plan_->transfer->box, object.pose, around.radiance,
                          {&around.instances, around.lit, number_}, *scratch_, incident_);
-    applyTransfer(transfer, incident_, irradiance_);
-    for (std::size_t i = 0; i < transfer.own.size(); ++i) irradiance_[i] += transfer.own[i];
 }
 
 void ObjectLight::publish() {

@@ -44,7 +44,12 @@ class ObjectLight {
     /// Looks about from the object's pose, as number `own` of the lit ones.
     void look(const DynamicObject& object, const Surroundings& around, std::uint32_t own);
 
-    /// The light on it, by what the surroundings now send.
+    /// Of shading `prt`: the light that comes to it. Reads the light on other objects, which must
+    /// not change meanwhile.
+    void findIncident(const DynamicObject& object, const Surroundings& around);
+
+    /// The light on it, by what the surroundings now send; of shading `prt`, what findIncident()
+    /// has found.
     void find(const DynamicObject& object, const Surroundings& around);
 
     /// Whether it takes from the room's indirect light and gives it back.
@@ -58,7 +63,6 @@ class ObjectLight {
                  std::span<const Vec3> viewers) const;
     void findWanted(const DynamicObject& object, std::span<const Vec3> viewers);
     void findDirect(const DynamicObject& object, const Surroundings& around);
-    void findByTransfer(const DynamicObject& object, const Surroundings& around);
     void publish();
 
     std::shared_ptr<const ObjectPlan> plan_;
