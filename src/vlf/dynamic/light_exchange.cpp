@@ -9,7 +9,8 @@
 //   4. exchange: object light from the room's, the room's from the objects', what has changed
 //      bouncing on (change_bounce.h), and the objects' once more.
 //
-// No step depends on the update before, so that the same poses give the same light.
+// No step depends on the update before (but for GatherSettings::cache), so that the same poses give
+// the same light.
 
 #include "vlf/dynamic/light_exchange.h"
 
