@@ -206,7 +206,11 @@ TEST(ObjectStill, AWireframeDrawsTheObjectAndHidesWhatIsBehindIt) {
 }
 
 TEST(ObjectStill, AnObjectIsLitAsPathTracingSays) {
-    const BakedScene baked = bakedCoarsely(smallCornell(), 4000);
+    BakedScene baked(smallCornell());
+    BakeParams bakeParams = presetParams("draft");
+    bakeParams.texelBudget = 8000;
+    Progress progress;
+    baked.field = bake(baked.scene, bakeParams, progress);
     DynamicObject cube = flatObject("cube", plain({0.6f, 0.6f, 0.5f}), {0.3f, 0.15f, 0.6f}, 0.3f);
     cube.pose.rotation = glm::angleAxis(0.4f, Vec3(0, 1, 0));
     cube.settings = {};
@@ -217,8 +221,7 @@ TEST(ObjectStill, AnObjectIsLitAsPathTracingSays) {
     params.camera.verticalFov = 20;
     params.camera.look = {0.3f, 0.15f, 0.6f};
     params.width = 48, params.height = 36;
-    params.samplesPerPixel = 1024;
-    Progress progress;
+    params.samplesPerPixel = 512;
     const Image truth = pathTrace(posed, RayScene(posed), params, progress).image;
     StillParams still = stillParams(params.camera, 48, 36);
     still.objects = &room.objects;
