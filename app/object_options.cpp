@@ -217,24 +217,14 @@ float suitableSize(const Scene& room) {
     return kSizeInRoom * least;
 }
 
-std::string unusedName(const Scenario& scenario, const std::string& name) {
-    const auto used = [&](const std::string& candidate) {
-        return std::any_of(scenario.objects.begin(), scenario.objects.end(),
-                           [&](const ScenarioObject& o) { return o.object.name == candidate; });
-    };
-    std::string candidate = name;
-    for (int n = 2; used(candidate); ++n) candidate = fmt::format("{} {}", name, n);
-    return candidate;
-}
-
 ScenarioObject parseObject(const std::string& text, const Scene& room,
-                           const ObjectSettings& settings) {
+                           const ObjectSettings& settings, const Vec3& fallback) {
     if (const std::string problem = objectProblem(text); !problem.empty())
         throw InputError(problem);
     const Spelling spelling = spellingOf(text);
     ScenarioObject object;
     object.object.settings = settings;
-    object.object.pose.translation = spelling.place.value_or(boundsOf(room).centre());
+    object.object.pose.translation = spelling.place.value_or(fallback);
     if (isPrimitive(spelling.shape)) {
         object.source.primitive = object.object.name = spelling.shape;
         object.object.pose.scale = suitableSize(room);
@@ -254,7 +244,7 @@ Scenario readObjects(const ObjectOptions& options, const Scene& room, ModelLibra
     if (!options.scenario.empty())
         scenario = readScenario(options.scenario, options.defaults, library, warnings);
     for (const std::string& text : options.objects) {
-        ScenarioObject object = parseObject(text, room, options.defaults);
+        ScenarioObject object = parseObject(text, room, options.defaults, boundsOf(room).centre());
         object.object.name = unusedName(scenario, object.object.name);
         scenario.objects.push_back(std::move(object));
         try {

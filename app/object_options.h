@@ -30,12 +30,10 @@ std::string objectHelp();
 Scenario readObjects(const ObjectOptions& options, const Scene& room, ModelLibrary& library,
                      const Globals& globals);
 
-/// One object written as for --object, without its model; throws InputError. For the panel too.
+/// One object written as for --object, without its model; at `fallback` if no place is stated.
+/// Throws InputError.
 ScenarioObject parseObject(const std::string& text, const Scene& room,
-                           const ObjectSettings& settings);
-
-/// The name, with a number behind it if an object has it already.
-std::string unusedName(const Scenario& scenario, const std::string& name);
+                           const ObjectSettings& settings, const Vec3& fallback);
 
 /// A size, metres, that suits a primitive in this room.
 float suitableSize(const Scene& room);

@@ -5,6 +5,7 @@
 #include "commands.h"
 #include "console.h"
 #include "gpu_options.h"
+#include "object_options.h"
 #include "picture_output.h"
 #include "viewer/display_modes.h"
 #include "viewer/key_bindings.h"
@@ -36,6 +37,7 @@ struct Options {
     std::vector<std::string> files;
     QualityOptions quality;
     CameraOptions camera;
+    ObjectOptions objects;
     ViewerOptions viewer;
     std::string mode;
     bool fresh = false;
@@ -69,6 +71,8 @@ ViewerOptions viewerOptions(const Options& options, const Globals& globals, cons
     if (!options.fresh) viewer.preferences = preferencesPath();
     viewer.quiet = globals.quiet;
     viewer.verbose = globals.verbose;
+    viewer.objects = readObjects(options.objects, scene, viewer.models, globals);
+    viewer.object = options.objects.defaults;
     return viewer;
 }
 
@@ -166,9 +170,9 @@ void addWindowOptions(CLI::App& command, Options& options) {
 
 void addSessionOptions(CLI::App& command, SessionOptions& session) {
     CLI::Option_group* group = command.add_option_group("Session", "Writing down and replaying");
-    group->add_option("--record", session.record, "Write the camera's path (.json)")
+    group->add_option("--record", session.record, "Write the path of camera and objects (.json)")
         ->type_name("PATH");
-    CLI::Option* replay = group->add_option("--replay", session.replay, "Follow a camera path")
+    CLI::Option* replay = group->add_option("--replay", session.replay, "Follow such a path")
                               ->check(CLI::ExistingFile)
                               ->type_name("PATH");
     group->add_flag("--loop", session.loop, "Begin the replay again when it ends")->needs(replay);
@@ -198,6 +202,7 @@ void addView(CLI::App& app, const Globals& globals) {
         ->required()
         ->type_name("FILE...");
     addCameraOptions(*command, options->camera);
+    addObjectOptions(*command, options->objects);
     addWindowOptions(*command, *options);
     addGpuOptions(*command, options->viewer.renderer);
     command->add_option("--mode", options->mode, "What to show first; M shows the next")
@@ -210,13 +215,14 @@ void addView(CLI::App& app, const Globals& globals) {
                          "Of scene files: write the finished bake (.vlf); F5 saves it as it is")
             ->type_name("FIELD");
     const CLI::Option_group* quality = addQualityOptions(*command, options->quality);
-    command->footer("Keys:\n" + keyHelp() +
+    command->footer(objectHelp() + "\nKeys:\n" + keyHelp() +
                     "\nPlace, speed, bookmarks and the window are remembered; see --fresh. Of "
                     "scene files,\nchanges on disk are baked anew.\n\n"
                     "Examples:\n"
                     "  vlf view room.vlf\n"
                     "  vlf view room.vlf --camera front --size 1280x960\n"
                     "  vlf view room.obj -o room.vlf\n"
+                    "  vlf view room.vlf --object cube:0.3:red --object sphere:mirror\n"
                     "  vlf view room.vlf --record walk.json\n"
                     "  vlf view room.vlf --replay walk.json --fps 30 --log frames.csv");
     command->callback([options, command, output, quality, &globals] {

@@ -83,11 +83,7 @@ void compare(const BakedRoom& baked, const DynamicRoom& room) {
     const Scene posed = posedScene(baked.scene, {&object, 1});
     Progress progress;
     const auto start = Clock::now();
-    LightField truth;
-    char cacheName[200];
-    std::snprintf(cacheName, 200, "/tmp/s/truth-%g-%g-%g-%g.vlf", object.pose.translation.x, object.pose.translation.y, object.pose.translation.z, object.pose.scale);
-    if (FILE* f = fopen(cacheName, "r")) { fclose(f); truth = readField(cacheName).field; }
-    else { truth = bake(posed, paramsOf(baked.field.record), progress); writeField(cacheName, {posed, truth}); }
+    const LightField truth = bake(posed, paramsOf(baked.field.record), progress);
     std::printf("new bake: %.2f s\n", 1e-3 * milliseconds(start));
     const RayScene rays(baked.scene);
     const Unwrap unwrap =
@@ -119,11 +115,6 @@ void compare(const BakedRoom& baked, const DynamicRoom& room) {
             covered |= maxComponent(local) < 0.51f;
         }
         if (covered) continue;
-        if (getenv("DUMP") && unwrap.texelArea(i) * (d - t) * (d - t) > atof(getenv("DUMP"))) {
-            Vec3 q(0); for (const SurfacePoint& k : unwrap.points.of(i)) q += positionAt(baked.scene, k.triangle, k.barycentric);
-            q /= float(unwrap.points.of(i).size());
-            std::printf("(%.3f %.3f %.3f) n (%.0f %.0f %.0f) static %.4f dynamic %.4f truth %.4f points %zu\n", q.x,q.y,q.z,own.normal.x,own.normal.y,own.normal.z,s,d,t,unwrap.points.of(i).size());
-        }
         const double a = unwrap.texelArea(i);
         const auto add = [&](Sums& sums) {
             sums.error += a * (d - t) * (d - t);

@@ -15,14 +15,78 @@ Key letter(char c) {
     return Key{c};
 }
 
+/// After Wither (2005). Arrows still move the camera.
+std::vector<Binding> objectBindings() {
+    constexpr Subject kObject = Subject::object;
+    return {
+        {.name = "O",
+         .help = "keys move the selected object, or the camera again",
+         .keys = {letter('O')},
+         .press = [](Viewer& v) { v.objects().toggleSubject(); }},
+        {.name = "object: W X",
+         .help = "to its -Z, +Z; with Ctrl to its +Y, -Y",
+         .keys = {letter('W')},
+         .control = false,
+         .subject = kObject,
+         .push = {0, 0, -1}},
+        {.keys = {letter('X')}, .control = false, .subject = kObject, .push = {0, 0, 1}},
+        {.keys = {letter('W')}, .control = true, .subject = kObject, .push = {0, 1, 0}},
+        {.keys = {letter('X')}, .control = true, .subject = kObject, .push = {0, -1, 0}},
+        {.name = "object: A D",
+         .help = "to its -X, +X; with Ctrl turn it about its Y",
+         .keys = {letter('A')},
+         .control = false,
+         .subject = kObject,
+         .push = {-1, 0, 0}},
+        {.keys = {letter('D')}, .control = false, .subject = kObject, .push = {1, 0, 0}},
+        {.keys = {letter('A')}, .control = true, .subject = kObject, .spin = {1, 0}},
+        {.keys = {letter('D')}, .control = true, .subject = kObject, .spin = {-1, 0}},
+        {.name = "object: Q Z",
+         .help = "turn it about its X",
+         .keys = {letter('Q')},
+         .subject = kObject,
+         .spin = {0, 1}},
+        {.keys = {letter('Z')}, .subject = kObject, .spin = {0, -1}},
+        {.name = "click",
+         .help = "select an object; drag its arms, squares and rings to move and turn it"},
+        {.name = "J",
+         .help = "select the next object",
+         .keys = {letter('J')},
+         .press = [](Viewer& v) { v.objects().selectNext(); }},
+        {.name = "Delete",
+         .help = "remove the selected object",
+         .keys = {Key::del},
+         .press =
+             [](Viewer& v) {
+                 if (v.objects().selected()) v.objects().remove(*v.objects().selected());
+             }},
+        {.name = "P",
+         .help = "motions of objects stand still, or go on",
+         .keys = {letter('P')},
+         .press = [](Viewer& v) { v.objects().setPlaying(!v.objects().playing()); }},
+    };
+}
+
 std::vector<Binding> makeBindings() {
     std::vector<Binding> table{
-        {.name = "W A S D, arrows", .help = "go", .keys = {letter('W'), Key::up}, .go = {0, 0, 1}},
-        {.keys = {letter('S'), Key::down}, .go = {0, 0, -1}},
-        {.keys = {letter('A'), Key::left}, .go = {-1, 0, 0}},
-        {.keys = {letter('D'), Key::right}, .go = {1, 0, 0}},
-        {.name = "E, Q", .help = "fly up, down", .keys = {letter('E')}, .go = {0, 1, 0}},
-        {.keys = {letter('Q')}, .go = {0, -1, 0}},
+        {.name = "W A S D, arrows",
+         .help = "go",
+         .keys = {letter('W')},
+         .subject = Subject::camera,
+         .go = {0, 0, 1}},
+        {.keys = {letter('S')}, .subject = Subject::camera, .go = {0, 0, -1}},
+        {.keys = {letter('A')}, .subject = Subject::camera, .go = {-1, 0, 0}},
+        {.keys = {letter('D')}, .subject = Subject::camera, .go = {1, 0, 0}},
+        {.keys = {Key::up}, .go = {0, 0, 1}},
+        {.keys = {Key::down}, .go = {0, 0, -1}},
+        {.keys = {Key::left}, .go = {-1, 0, 0}},
+        {.keys = {Key::right}, .go = {1, 0, 0}},
+        {.name = "E, Q",
+         .help = "fly up, down",
+         .keys = {letter('E')},
+         .subject = Subject::camera,
+         .go = {0, 1, 0}},
+        {.keys = {letter('Q')}, .subject = Subject::camera, .go = {0, -1, 0}},
         {.name = "Shift",
          .help = "faster",
          .keys = {Key::leftShift, Key::rightShift},
@@ -87,7 +151,8 @@ std::vector<Binding> makeBindings() {
          .help = "exposure automatic, or fixed",
          .keys = {letter('X')},
          .press =
-             [](Viewer& v) { v.walk().setAutomaticExposure(!v.walk().exposure().automatic()); }},
+             [](Viewer& v) { v.walk().setAutomaticExposure(!v.walk().exposure().automatic()); },
+         .subject = Subject::camera},
         {.name = "T",
          .help = "tone curve filmic, or linear",
          .keys = {letter('T')},
@@ -139,6 +204,8 @@ std::vector<Binding> makeBindings() {
          .keys = {Key::escape},
          .press = [](Viewer& v) { v.escape(); }},
     };
+    const std::vector<Binding> objects = objectBindings();
+    table.insert(table.end(), objects.begin(), objects.end());
     table.insert(table.end(), rest.begin(), rest.end());
     return table;
 }

@@ -1,6 +1,8 @@
 #pragma once
 // Every key of the walkthrough, in one table: what it does and what the help says of it.
 
+#include "objects.h"
+
 #include "vlf/display/keys.h"
 #include "vlf/math/vector.h"
 
@@ -19,8 +21,12 @@ struct Binding {
     std::vector<Key> keys{};               ///< either of them; none: the row only informs
     std::function<void(Viewer&)> press{};  ///< once as a key goes down
     std::optional<bool> shift{};           ///< only with, or only without Shift
+    std::optional<bool> control{};         ///< likewise Ctrl
+    std::optional<Subject> subject{};      ///< only while the keys move this
     bool repeats = false;                  ///< `press` again and again while the key is held
     Vec3 go{0};                            ///< goes this way while a key is held: Steering::go
+    Vec3 push{0};                          ///< ObjectSteering::push while a key is held
+    Vec2 spin{0};                          ///< likewise ObjectSteering::spin
     bool fast = false;                     ///< in a hurry while a key is held
 };
 

@@ -110,12 +110,13 @@ void drawStatistics(const FrameStatistics& frames, const PassTimes& passes,
             label("median frame", fmt::format("{:.2f} ms", 1e3 * frames.times().median));
             label("99 in 100 within", fmt::format("{:.2f} ms", 1e3 * frames.times().p99));
             for (const auto& [name, time] : passes)
-                label("GPU " + name, time ? fmt::format("{:.2f} ms", *time) : "-");
+                label(name, time ? fmt::format("{:.2f} ms", *time) : "-");
             label("GPU memory", bytes(memory.total()));
             label("  geometry", bytes(memory.geometry));
             label("  irradiance", bytes(memory.atlas));
             label("  radiance", bytes(memory.radiance));
             label("  textures", bytes(memory.textures));
+            if (memory.objects > 0) label("  objects", bytes(memory.objects));
             if (memory.hits > 0) label("  tracing", bytes(memory.hits));
             if (memory.drawings > 0) label("  drawings", bytes(memory.drawings));
             if (memory.radianceElements > 0)

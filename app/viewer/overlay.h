@@ -11,7 +11,7 @@
 
 namespace vlf::app {
 
-/// Work of the GPU at parts of a frame, in order.
+/// Work at parts of a frame, in order.
 using PassTimes = std::vector<std::pair<std::string, std::optional<double>>>;  ///< milliseconds
 
 /// One line at the bottom; `opacity` in [0, 1].

@@ -1,6 +1,7 @@
 #include "panel.h"
 
 #include "display_modes.h"
+#include "object_panel.h"
 #include "viewer.h"
 
 #include <optional>
@@ -116,6 +117,7 @@ void drawPanel(Viewer& viewer) {
                      ImGuiWindowFlags_NoSavedSettings)) {
         ImGui::PushItemWidth(-9 * ImGui::GetFontSize());
         if (ImGui::CollapsingHeader("View", kOpen)) drawView(viewer.walk());
+        if (ImGui::CollapsingHeader("Objects", kOpen)) drawObjectPanel(viewer);
         if (ImGui::CollapsingHeader("Movement", kOpen)) drawMovement(viewer.walk());
         if (ImGui::CollapsingHeader("Exposure", kOpen)) drawExposure(viewer.walk());
         if (ImGui::CollapsingHeader("Cameras", kOpen)) drawCameras(viewer.walk());

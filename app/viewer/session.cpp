@@ -6,8 +6,14 @@
 
 namespace vlf::app {
 
-Session::Session(const SessionOptions& options) : options_(options), log_({"room", "overlay"}) {
-    if (!options.replay.empty()) path_ = readCameraPath(options.replay);
+Session::Session(const SessionOptions& options)
+    : options_(options), log_({"objects", "room", "overlay"}) {
+    if (options.replay.empty()) return;
+    ModelLibrary library;
+    std::vector<std::string> warnings;
+    Walk walk = readWalk(options.replay, library, warnings);
+    path_ = std::move(walk.camera);
+    objects_ = std::move(walk.objects);
 }
 
 double Session::advance(double seconds) {
@@ -23,27 +29,32 @@ double Session::advance(double seconds) {
 
 std::optional<CameraPose> Session::pose() const {
     if (!path_) return {};
-    const double duration = path_->duration();
-    return path_->at(options_.loop && duration > 0 ? std::fmod(seconds_, duration) : seconds_);
+    return path_->at(pathSeconds());
+}
+
+double Session::pathSeconds() const {
+    const double duration = path_ ? path_->duration() : 0;
+    return options_.loop && duration > 0 ? std::fmod(seconds_, duration) : seconds_;
 }
 
 bool Session::over() const {
     return path_ && !options_.loop && seconds_ > path_->duration();
 }
 
-void Session::note(const FrameRecord& frame, bool jumped) {
+void Session::note(const FrameRecord& frame, bool jumped, const Objects& objects) {
     if (!options_.record.empty()) {
         if (jumped)
             recorder_.jump(seconds_, frame.pose);
         else
             recorder_.record(seconds_, frame.pose);
+        objectRecorder_.record(seconds_, objects);
     }
     if (!options_.log.empty()) log_.add(frame);
 }
 
 void Session::finish() const {
     if (!options_.record.empty() && !recorder_.empty())
-        writeCameraPath(options_.record, recorder_.path());
+        writeWalk(options_.record, {recorder_.path(), objectRecorder_.scenario()});
     if (!options_.log.empty()) log_.write(options_.log);
 }
 

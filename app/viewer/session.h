@@ -1,5 +1,8 @@
 #pragma once
-// What of a walk is written down or read again: the way of the camera, and every frame's times.
+// What of a walk is written down or read again: the way of the camera, what objects did, and every
+// frame's times.
+
+#include "object_recorder.h"
 
 #include "vlf/display/camera_path.h"
 #include "vlf/display/frame_log.h"
@@ -19,8 +22,11 @@ struct SessionOptions {
 
 class Session {
   public:
-    /// Reads the path to follow. Throws as readCameraPath does.
+    /// Reads the path to follow. Throws as readWalk does.
     explicit Session(const SessionOptions& options);
+
+    /// What the path that is followed has of objects.
+    const Scenario& objects() const { return objects_; }
 
     /// A frame begins, `seconds` after the one before; returns the time between the two in the
     /// session.
@@ -32,19 +38,24 @@ class Session {
     /// The path that was followed has ended.
     bool over() const;
 
-    /// What the frame has shown and taken. Of its passes: the room, what lies over it. `jumped`:
-    /// the walker did not go there from where he was.
-    void note(const FrameRecord& frame, bool jumped);
+    /// What the frame has shown and taken. Of its passes: the light of objects, the room, what lies
+    /// over it. `jumped`: the walker did not go there from where he was.
+    void note(const FrameRecord& frame, bool jumped, const Objects& objects);
 
     /// Writes what was recorded. Throws FileError.
     void finish() const;
 
     double seconds() const { return seconds_; }  ///< since the start
 
+    /// On the path that is followed, or else since the start.
+    double pathSeconds() const;
+
   private:
     SessionOptions options_;
     std::optional<CameraPath> path_;
+    Scenario objects_;
     PathRecorder recorder_;
+    ObjectRecorder objectRecorder_;
     FrameLog log_;
     double seconds_ = 0;
     std::uint64_t frames_ = 0;

@@ -1,13 +1,16 @@
 #include "viewer.h"
 
 #include "console.h"
+#include "gizmo_drawing.h"
 #include "gpu_options.h"
 #include "key_bindings.h"
 #include "numbered_file.h"
+#include "object_options.h"
 #include "overlay.h"
 #include "panel.h"
 
 #include "vlf/base/error.h"
+#include "vlf/dynamic/scenario_file.h"
 #include "vlf/image/image_io.h"
 #include "vlf/render/gl/driver.h"
 #include "vlf/render/gl/read_framebuffer.h"
@@ -67,8 +70,19 @@ bool held(const Window& window, const Binding& binding) {
                        [&](Key key) { return window.held(key); });
 }
 
+/// Of the path that is followed, or else those of the options.
+Scenario objectsToShow(const ViewerOptions& options, const Session& session) {
+    if (session.objects().objects.empty()) return options.objects;
+    if (!options.objects.objects.empty())
+        throw InputError(options.session.replay +
+                         " holds objects of its own: leave out --object and --scenario, or delete "
+                         "\"objects\" from it and make its \"version\" 1");
+    return session.objects();
+}
+
 bool matches(const Binding& binding, const KeyPress& press) {
-    return binding.press && binding.shift.value_or(press.shift) == press.shift &&
+    return binding.press && binding.control.value_or(press.control) == press.control &&
+           binding.shift.value_or(press.shift) == press.shift &&
            (binding.repeats || !press.repeated) &&
            std::count(binding.keys.begin(), binding.keys.end(), press.key) > 0;
 }
@@ -83,6 +97,9 @@ Viewer::Viewer(std::shared_ptr<const BakedRoom> room, const ViewerOptions& optio
       shownRoom_(std::make_unique<ShownRoom>(room, options.renderer)),
       walk_(room, options.start, [this](const std::string& text) { say(text); }),
       session_(options.session),
+      objects_(objectsToShow(options, session_), options.models,
+               [this](const std::string& text) { say(text); }),
+      pointer_(objects_),
       shaderWatch_(options.renderer.shaderFolder) {
     RoomPreferences here = memory_.room();
     if (options.startChosen) here.pose.reset();
@@ -90,6 +107,7 @@ Viewer::Viewer(std::shared_ptr<const BakedRoom> room, const ViewerOptions& optio
     walk_.recall(memory_.preferences(), here);
     walk_.setMode(options.mode);
     if (session_.pose()) walk_.navigator().setMovement(Movement::fly);
+    objects_.enter(room, walk_.rays(), options.light);
     if (options.light) shownRoom_->renderer().updateIrradiance(*options.light);
     if (options.live)
         live_.emplace(*options.live, stemOf(options.file), options.output,
@@ -108,6 +126,7 @@ void Viewer::frame(double seconds) {
     if (window_->hidden()) return;
     statistics_.add(seconds);
     reloadShaders(step);
+    updateObjects();
     drawRoom();
     adaptExposure(step);
     writeWantedPicture();
@@ -130,6 +149,7 @@ void Viewer::move(float seconds) {
         walk_.navigator().setPose(*pose);
     else
         walk_.navigator().advance(wanted, seconds);
+    objects_.steer(objectSteering(), seconds);
 }
 
 void Viewer::takeNews() {
@@ -139,8 +159,20 @@ void Viewer::takeNews() {
     if (update->room) {
         shownRoom_ = std::make_unique<ShownRoom>(update->room, options_.renderer);
         walk_.enter(update->room);
+        objects_.enter(update->room, walk_.rays(), update->irradiance);
+    } else {
+        objects_.setLight(update->irradiance);
     }
     shownRoom_->renderer().updateIrradiance(*update->irradiance);
+}
+
+void Viewer::updateObjects() {
+    objectsMs_.reset();
+    const Clock::time_point start = Clock::now();
+    const bool changed = objects_.update(session_.pathSeconds(), walk_.camera().eye);
+    if (!objects_.room()) return;
+    if (changed) shownRoom_->renderer().updateObjects(*objects_.room());
+    objectsMs_ = millisecondsSince(start);
 }
 
 void Viewer::note(double pathSeconds, double cpuMs, double totalMs) {
@@ -151,9 +183,9 @@ void Viewer::note(double pathSeconds, double cpuMs, double totalMs) {
     frame.cpuMs = cpuMs;
     if (room && overlay) frame.gpuMs = *room + *overlay;
     frame.totalMs = totalMs;
-    frame.passMs = {room, overlay};
+    frame.passMs = {objectsMs_, room, overlay};
     frame.pose = walk_.navigator().pose();
-    session_.note(frame, walk_.jumped());
+    session_.note(frame, walk_.jumped(), objects_);
 }
 
 void Viewer::finish() {
@@ -162,27 +194,69 @@ void Viewer::finish() {
     if (live_) live_->finish();
 }
 
+/// Of what the keys move now.
+bool Viewer::applies(const Binding& binding) const {
+    return binding.subject.value_or(objects_.subject()) == objects_.subject();
+}
+
+bool Viewer::holds(const Binding& binding) const {
+    const bool control = window_->held(Key::leftControl) || window_->held(Key::rightControl);
+    return !gui_.typing() && applies(binding) && binding.control.value_or(control) == control &&
+           held(*window_, binding);
+}
+
 Steering Viewer::steering(float seconds) {
     Steering steering;
     steering.turn = std::exchange(turn_, Vec2(0));
-    if (!gui_.typing())
-        for (const Binding& binding : keyBindings())
-            if (held(*window_, binding)) {
-                steering.go += binding.go;
-                steering.fast = steering.fast || binding.fast;
-            }
+    for (const Binding& binding : keyBindings())
+        if (holds(binding)) {
+            steering.go += binding.go;
+            steering.fast = steering.fast || binding.fast;
+        }
     if (const auto pad = window_->gamepad()) steering += steeringOf(*pad, seconds);
+    return steering;
+}
+
+ObjectSteering Viewer::objectSteering() const {
+    ObjectSteering steering;
+    for (const Binding& binding : keyBindings())
+        if (holds(binding)) {
+            steering.push += binding.push;
+            steering.spin += binding.spin;
+            steering.fast = steering.fast || binding.fast;
+        }
     return steering;
 }
 
 void Viewer::keyPressed(const KeyPress& press) {
     if (gui_.typing()) return;
+    // A key may change whom the keys move: that is for the next one.
+    const Subject subject = objects_.subject();
     for (const Binding& binding : keyBindings())
-        if (matches(binding, press)) binding.press(*this);
+        if (binding.subject.value_or(subject) == subject && matches(binding, press))
+            binding.press(*this);
 }
 
-void Viewer::pointerDragged(const Vec2& by) {
-    if (!gui_.wantsPointer()) turn_ -= kRadiansPerPixel * by;
+Vec2 Viewer::pixels(const Vec2& at) const {
+    return at * Vec2(window_->pixelWidth(), window_->pixelHeight());
+}
+
+Screen Viewer::screen() const {
+    return {walk_.camera(), pixels(Vec2(1))};
+}
+
+void Viewer::pointerPressed(const Vec2& at) {
+    if (!gui_.wantsPointer() && !window_->pointerCaptured())
+        pointer_.press(screen(), pixels(at), window_->contentScale());
+}
+
+void Viewer::pointerReleased(const Vec2& at) {
+    pointer_.release(screen(), pixels(at));
+}
+
+void Viewer::pointerDragged(const Vec2& by, const Vec2& at) {
+    pointer_.drag(pixels(at));
+    if (!pointer_.held() && !gui_.wantsPointer()) turn_ -= kRadiansPerPixel * by;
 }
 
 void Viewer::scrolled(float steps) {
@@ -209,6 +283,29 @@ void Viewer::saveBake() {
         live_->save();
     else
         say("this room comes from a field file: there is nothing to save");
+}
+
+void Viewer::attempt(const std::function<void()>& action) {
+    try {
+        action();
+    } catch (const Error& e) {
+        announce(e.what());
+    }
+}
+
+void Viewer::addObject(const std::string& text) {
+    const Scene& scene = shownRoom_->room().scene;
+    const Ray ahead = screen().ray(0.5f * pixels(Vec2(1)));
+    const Vec3 place = objects_.placeAlong(ahead, suitableSize(scene));
+    attempt([&] { objects_.add(parseObject(text, scene, options_.object, place)); });
+}
+
+void Viewer::saveObjects() {
+    attempt([&] {
+        const std::string name = makeNumberedFile(stemOf(options_.file), "json");
+        writeScenario(name, objects_.scenario());
+        announce(name + " written");
+    });
 }
 
 void Viewer::escape() {
@@ -287,16 +384,27 @@ std::string Viewer::status() const {
     return line;
 }
 
+void Viewer::drawObjectGizmo() {
+    const Screen seen = screen();
+    const std::optional<Gizmo> gizmo = pointer_.gizmo(seen, window_->contentScale());
+    if (!gizmo) return;
+    const GizmoHandle bright =
+        pointer_.held() ? pointer_.held() : gizmo->pick(pixels(window_->pointer()));
+    drawGizmo(seen, static_cast<float>(window_->pixelWidth()), *gizmo, bright);
+}
+
 void Viewer::drawOverlays() {
+    drawObjectGizmo();
     if (shown_.help)
         drawHelp();
     else if (shown_.panel)
         drawPanel(*this);
     if (shown_.statistics && !shown_.help)
-        drawStatistics(
-            statistics_,
-            {{"room", roomTimer_.milliseconds()}, {"overlay", overlayTimer_.milliseconds()}},
-            shownRoom_->renderer().memory());
+        drawStatistics(statistics_,
+                       {{"CPU objects", objectsMs_},
+                        {"GPU room", roomTimer_.milliseconds()},
+                        {"GPU overlay", overlayTimer_.milliseconds()}},
+                       shownRoom_->renderer().memory());
     const gl::TimedPass pass(overlayTimer_);
     gui_.draw();
 }

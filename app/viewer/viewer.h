@@ -5,6 +5,8 @@
 #include "gui.h"
 #include "live_view.h"
 #include "memory.h"
+#include "object_pointer.h"
+#include "objects.h"
 #include "session.h"
 #include "shown_room.h"
 #include "walkthrough.h"
@@ -14,6 +16,7 @@
 #include "vlf/render/gl/exposure_meter.h"
 #include "vlf/render/gl/gpu_timer.h"
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -30,6 +33,9 @@ struct ViewerOptions {
     RendererOptions renderer;    ///< its shader folder is watched for changes
     std::size_t mode = 0;        ///< of kViewModes
     SessionOptions session;
+    Scenario objects;                              ///< in the room, with their models
+    ModelLibrary models;                           ///< of these
+    ObjectSettings object;                         ///< of objects that are added
     LiveBake* live = nullptr;                      ///< bakes the room; must outlive the viewer
     std::shared_ptr<const IrradianceAtlas> light;  ///< in place of the room's own; null: that
     std::string output;                            ///< of the live bake, see LiveView
@@ -39,6 +45,8 @@ struct ViewerOptions {
 };
 
 enum class Picture { png, exr };
+
+struct Binding;
 
 class Viewer : private WindowListener {
   public:
@@ -63,7 +71,16 @@ class Viewer : private WindowListener {
     void remember() { memory_.save(*window_, walk_); }
 
     Walkthrough& walk() { return walk_; }
+    Objects& objects() { return objects_; }
     Shown& shown() { return shown_; }
+    const ObjectSettings& objectDefaults() const { return options_.object; }
+    /// Adds an object that is written as for --object; before the camera, if no place is stated.
+    /// What is wrong with it is said.
+    void addObject(const std::string& text);
+    /// Writes the objects as a scenario of a new name.
+    void saveObjects();
+    /// What fails is said.
+    void attempt(const std::function<void()>& action);
     void addBookmark();
     void captureMouse(bool on);
     void toggleFullscreen();
@@ -73,14 +90,23 @@ class Viewer : private WindowListener {
 
   private:
     void keyPressed(const KeyPress& press) override;
-    void pointerDragged(const Vec2& by) override;
+    void pointerPressed(const Vec2& at) override;
+    void pointerReleased(const Vec2& at) override;
+    void pointerDragged(const Vec2& by, const Vec2& at) override;
     void scrolled(float steps) override;
 
+    bool applies(const Binding& binding) const;
+    bool holds(const Binding& binding) const;
     Steering steering(float seconds);
+    ObjectSteering objectSteering() const;
+    Vec2 pixels(const Vec2& at) const;
+    Screen screen() const;
     void move(float seconds);
     void say(const std::string& text);
     void announce(const std::string& text);
     void takeNews();
+    void updateObjects();
+    void drawObjectGizmo();
     void reloadShaders(float seconds);
     void adaptExposure(float seconds);
     void drawRoom();
@@ -99,13 +125,16 @@ class Viewer : private WindowListener {
     std::unique_ptr<ShownRoom> shownRoom_;
     Walkthrough walk_;
     Session session_;
+    Objects objects_;
+    ObjectPointer pointer_;
     std::optional<LiveView> live_;
     Shown shown_;
     FrameStatistics statistics_;
     gl::ExposureMeter meter_;
     gl::GpuTimer roomTimer_, overlayTimer_;
     FolderWatch shaderWatch_;
-    Vec2 turn_{0};  ///< by the mouse, still to be done
+    Vec2 turn_{0};                     ///< by the mouse, still to be done
+    std::optional<double> objectsMs_;  ///< for the light of objects in this frame
     std::optional<Picture> pictureWanted_;
     std::string message_, problem_;
     float messageAge_ = 0;                                        ///< seconds

@@ -30,6 +30,8 @@ class Walkthrough {
 
     Navigator& navigator() { return ground_->navigator; }
     const Navigator& navigator() const { return ground_->navigator; }
+    /// Of the room, until another is entered.
+    const RayScene& rays() const { return ground_->rays; }
     Camera camera() const { return cameraOf(navigator().pose()); }
     Exposure& exposure() { return exposure_; }
     std::vector<Bookmark>& bookmarks() { return bookmarks_; }

@@ -15,6 +15,7 @@ enum class Key : int {
     rightBracket = 93,
     escape = 256,
     tab = 258,
+    del = 261,
     right = 262,
     left = 263,
     down = 264,
@@ -30,7 +31,9 @@ enum class Key : int {
     keypadSubtract = 333,
     keypadAdd = 334,
     leftShift = 340,
+    leftControl = 341,
     rightShift = 344,
+    rightControl = 345,
 };
 
 /// What the first gamepad says.

@@ -23,6 +23,7 @@ VLF_SAME_KEY(leftBracket, LEFT_BRACKET);
 VLF_SAME_KEY(rightBracket, RIGHT_BRACKET);
 VLF_SAME_KEY(escape, ESCAPE);
 VLF_SAME_KEY(tab, TAB);
+VLF_SAME_KEY(del, DELETE);
 VLF_SAME_KEY(right, RIGHT);
 VLF_SAME_KEY(left, LEFT);
 VLF_SAME_KEY(down, DOWN);
@@ -38,7 +39,9 @@ VLF_SAME_KEY(f12, F12);
 VLF_SAME_KEY(keypadSubtract, KP_SUBTRACT);
 VLF_SAME_KEY(keypadAdd, KP_ADD);
 VLF_SAME_KEY(leftShift, LEFT_SHIFT);
+VLF_SAME_KEY(leftControl, LEFT_CONTROL);
 VLF_SAME_KEY(rightShift, RIGHT_SHIFT);
+VLF_SAME_KEY(rightControl, RIGHT_CONTROL);
 #undef VLF_SAME_KEY
 static_assert('A' == GLFW_KEY_A && '0' == GLFW_KEY_0);
 
@@ -111,14 +114,21 @@ void Window::listen() {
     // Noted here, told by poll: an exception must not pass through GLFW.
     glfwSetKeyCallback(window_, [](GLFWwindow* w, int key, int, int action, int modifiers) {
         if (action != GLFW_RELEASE)
-            self(w).presses_.push_back(
-                {Key{key}, (modifiers & GLFW_MOD_SHIFT) != 0, action == GLFW_REPEAT});
+            self(w).presses_.push_back({Key{key}, (modifiers & GLFW_MOD_SHIFT) != 0,
+                                        (modifiers & GLFW_MOD_CONTROL) != 0,
+                                        action == GLFW_REPEAT});
     });
     glfwSetCursorPosCallback(window_, [](GLFWwindow* w, double x, double y) {
         const Vec2 at(x, y);
         const auto last = std::exchange(self(w).pointer_, at);
         // Asked for now: a quick drag begins and ends between two polls.
-        if (last && (anyButtonHeld(w) || self(w).pointerCaptured())) self(w).dragged_ += at - *last;
+        if (last && (anyButtonHeld(w) || self(w).pointerCaptured())) self(w).noteDrag(*last, at);
+    });
+    glfwSetMouseButtonCallback(window_, [](GLFWwindow* w, int button, int action, int) {
+        if (button == GLFW_MOUSE_BUTTON_LEFT)
+            self(w).pointerEvents_.push_back(
+                {action == GLFW_PRESS ? PointerAction::press : PointerAction::release,
+                 self(w).pointer(), Vec2(0)});
     });
     glfwSetScrollCallback(window_, [](GLFWwindow* w, double, double steps) {
         self(w).scrolled_ += static_cast<float>(steps);
@@ -131,9 +141,30 @@ void Window::poll(WindowListener& listener) {
     else
         glfwPollEvents();
     for (const KeyPress& press : std::exchange(presses_, {})) listener.keyPressed(press);
-    if (const Vec2 by = std::exchange(dragged_, Vec2(0)); by != Vec2(0))
-        listener.pointerDragged(by);
+    tellPointer(listener);
     if (const float steps = std::exchange(scrolled_, 0.0f); steps != 0) listener.scrolled(steps);
+}
+
+/// Drags without a press or a release between them are one.
+void Window::noteDrag(const Vec2& from, const Vec2& to) {
+    if (pointerEvents_.empty() || pointerEvents_.back().action != PointerAction::drag)
+        pointerEvents_.push_back({PointerAction::drag, Vec2(0), Vec2(0)});
+    pointerEvents_.back().by += to - from;
+    pointerEvents_.back().at = inWindow(to);
+}
+
+void Window::tellPointer(WindowListener& listener) {
+    for (const PointerEvent& event : std::exchange(pointerEvents_, {})) switch (event.action) {
+            case PointerAction::press:
+                listener.pointerPressed(event.at);
+                break;
+            case PointerAction::drag:
+                listener.pointerDragged(event.by, event.at);
+                break;
+            case PointerAction::release:
+                listener.pointerReleased(event.at);
+                break;
+        }
 }
 
 void Window::swap() {
@@ -217,7 +248,19 @@ void Window::capturePointer(bool on) {
 /// The next place of the pointer is no movement from the last.
 void Window::forgetPointer() {
     pointer_.reset();
-    dragged_ = Vec2(0);
+    pointerEvents_.clear();
+}
+
+Vec2 Window::inWindow(const Vec2& desktop) const {
+    int width = 1, height = 1;
+    glfwGetWindowSize(window_, &width, &height);
+    return desktop / Vec2(std::max(width, 1), std::max(height, 1));
+}
+
+Vec2 Window::pointer() const {
+    double x = 0, y = 0;
+    glfwGetCursorPos(window_, &x, &y);
+    return inWindow(Vec2(x, y));
 }
 
 bool Window::held(Key key) const {

@@ -31,6 +31,7 @@ struct WindowOptions {
 struct KeyPress {
     Key key = Key::unknown;
     bool shift = false;
+    bool control = false;
     bool repeated = false;  ///< it has been held for a while
 };
 
@@ -40,9 +41,13 @@ class WindowListener {
     virtual ~WindowListener() = default;
 
     virtual void keyPressed(const KeyPress& press) = 0;
-    /// The pointer has moved, with a button held or captured, by so many units of the desktop;
-    /// right and down are positive.
-    virtual void pointerDragged(const Vec2& by) = 0;
+    /// The left button goes down, or up again. `at` is the pointer's place in parts of the window's
+    /// width and height, from the upper left.
+    virtual void pointerPressed(const Vec2& at) = 0;
+    virtual void pointerReleased(const Vec2& at) = 0;
+    /// The pointer has moved, with a button held or captured, by so many units of the desktop, and
+    /// is now at `at`; right and down are positive.
+    virtual void pointerDragged(const Vec2& by, const Vec2& at) = 0;
     /// The wheel has turned; away from the user is positive.
     virtual void scrolled(float steps) = 0;
 };
@@ -81,6 +86,8 @@ class Window {
     /// A captured pointer is invisible and moves without end.
     bool pointerCaptured() const;
     void capturePointer(bool on);
+    /// In parts of the window's width and height, from the upper left.
+    Vec2 pointer() const;
 
     bool held(Key key) const;
     std::optional<Gamepad> gamepad() const;
@@ -89,15 +96,25 @@ class Window {
     GLFWwindow* handle() const { return window_; }
 
   private:
+    enum class PointerAction { press, drag, release };
+
+    struct PointerEvent {
+        PointerAction action = PointerAction::drag;
+        Vec2 at{0}, by{0};
+    };
+
     void open(const WindowOptions& options);
     void listen();
+    void noteDrag(const Vec2& from, const Vec2& to);
+    void tellPointer(WindowListener& listener);
+    Vec2 inWindow(const Vec2& desktop) const;
     void forgetPointer();
 
     GLFWwindow* window_ = nullptr;
     WindowPlace place_;
     std::vector<KeyPress> presses_;
     std::optional<Vec2> pointer_;
-    Vec2 dragged_{0};
+    std::vector<PointerEvent> pointerEvents_;
     float scrolled_ = 0;
 };
 

@@ -64,7 +64,12 @@ void ChangeBounce::shoot(const Scene& scene, const RayScene& rays, const RoomTex
         const std::size_t count = std::min(kRaysPerBlock, rays_.size() - first);
         SightTracer tracer(scene, rays, room);
         tracer.setObjects(objects);
-        for (const Sight& sight : tracer.trace({rays_.data() + first, count}))
+        thread_local Sights sights;
+        tracer.trace({rays_.data() + first, count}, sights);
+        for (std::size_t i = 0; i < count; ++i)
+            if (sights.texel[i] != kNoTexel)
+                arrivals_[block].push_back({sights.texel[i], carried_[first + i]});
+        for (const Sight& sight : sights.others)
             if (sight.texel != kNoTexel && sight.covered)
                 arrivals_[block].push_back(
                     {sight.texel, sight.throughput * carried_[first + sight.ray]});

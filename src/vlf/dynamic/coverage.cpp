@@ -44,8 +44,7 @@ bool isCovered(const Vec3& point, const Vec3& normal, float gap, const RayInstan
     if (!found) return false;
     if (found.hit.t < 2 * gap) return true;
     const LitObject& object = lit[found.instance];
-    const Vec3 winding =
-        object.pose.direction(areaVector(object.mesh->scene, found.hit.triangle));
+    const Vec3 winding = object.pose.direction(areaVector(object.mesh->scene, found.hit.triangle));
     return object.mesh->closed && glm::dot(winding, normal) > 0;
 }
 

@@ -29,8 +29,8 @@ class Coverage {
     /// The points of entry i of unwrap.texels that are not covered.
     std::span<const SurfacePoint> points(const RoomTexels& room, std::size_t i) const;
 
-    /// Texels that are covered whole take irradiance from neighbours in their chart that are not, so
-    /// that nothing of what they had shows at the edge of an object.
+    /// Texels that are covered whole take irradiance from neighbours in their chart that are not,
+    /// so that nothing of what they had shows at the edge of an object.
     void fill(const RoomTexels& room, IrradianceAtlas& light) const;
 
     /// Entries of which less than all is uncovered, in ascending order.

@@ -44,8 +44,6 @@ class DeltaLines {
         Vec3 lost;  ///< radiance
         Vec3 gain;  ///< irradiance per radiance, by the mirrors on the way
     };
-    struct Scratch;
-
     std::vector<std::vector<End>> blocks_;
 };
 

@@ -7,9 +7,6 @@
 #include "vlf/dynamic/soft_shadow.h"
 
 #include <algorithm>
-#include <chrono>
-#include <cstdio>
-#include <cstdlib>
 #include <utility>
 
 namespace vlf {
@@ -53,7 +50,12 @@ struct DynamicRoom::Impl {
     };
 
     Impl(const Scene& s, const RayScene& r, const LightField& f)
-        : scene(s), roomRays(r), field(f), room(makeRoomTexels(s, r, f)), change(room), coverage(room) {
+        : scene(s),
+          roomRays(r),
+          field(f),
+          room(makeRoomTexels(s, r, f)),
+          change(room),
+          coverage(room) {
         setRoomLight(f.atlas);
     }
 
@@ -78,7 +80,7 @@ struct DynamicRoom::Impl {
             if (!object.visible) continue;
             if (std::exchange(entry.unprepared, false))
                 entry.light->prepare(
-                    object, plans, getenv("LINES")?atoi(getenv("LINES")):std::min(field.record.directions, kMaxLines),
+                    object, plans, std::min(field.record.directions, kMaxLines),
                     2 * field.frame.radius / static_cast<float>(field.record.cells));
             numbers.push_back(i);
             lit.push_back(entry.light->lit());
@@ -102,33 +104,20 @@ struct DynamicRoom::Impl {
 
     /// Light goes back and forth between room and objects.
     void exchange() {
-        static const bool times = getenv("TIMES");
-        auto t0 = std::chrono::steady_clock::now();
-        const auto lap = [&](const char* what) {
-            if (!times) return;
-            const auto t1 = std::chrono::steady_clock::now();
-            std::printf("%s %.3f ", what, std::chrono::duration<double, std::milli>(t1 - t0).count());
-            t0 = t1;
-        };
         change.clear();
         change.apply(room, roomLight, light, radiance);
         const Surroundings around = surroundings();
         coverage.find(scene, roomRays, room, rays, lit, allSpheres);
-        lap("coverage");
         for (std::uint32_t i = 0; i < lit.size(); ++i)
             entries[numbers[i]].light->look(entries[numbers[i]].object, around, i);
-        lap("look");
-        const TexelLoss loss = spheres.empty()
-                                   ? TexelLoss{}
-                                   : findSoftShadows(scene, roomRays, room, coverage, spheres,
-                                                     occluderOf(casterRays),
-                                                     kShadowSamples * shadowSamples());
+        const TexelLoss loss = spheres.empty() ? TexelLoss{}
+                                               : findSoftShadows(scene, roomRays, room, coverage,
+                                                                 spheres, occluderOf(casterRays),
+                                                                 kShadowSamples * shadowSamples());
         shadows.clear();
         for (std::size_t i = 0; i < loss.entries.size(); ++i)
             if (loss.loss[i] != Vec3(0))
                 shadows.push_back({room.unwrap.texels[loss.entries[i]], -loss.loss[i]});
-        lap("soft");
-        if (times) std::printf("[%zu shadow texels] ", loss.entries.size());
         for (int round = 0; round < kRounds; ++round) {
             change.clear();
             for (const TexelChange& t : shadows) change.add(t.texel, t.irradiance);
@@ -137,15 +126,11 @@ struct DynamicRoom::Impl {
                 onObject.find(entries[numbers[i]].object, around);
                 onObject.addChange(change.change, change.touched, change.texels);
             }
-            lap("find");
             if (round + 1 == kRounds && !shadows.empty())
                 bounce.add(shadows, scene, roomRays, room, coverage, {&rays, lit, kNoObject}, {},
                            change);
-            lap("bounce");
             change.apply(room, roomLight, light, radiance);
-            lap("apply");
         }
-        if (times) std::printf("\n");
         coverage.fill(room, light);
         for (std::size_t i = 0; i < lit.size(); ++i) lit[i] = entries[numbers[i]].light->lit();
         ++lightVersion;

@@ -65,10 +65,12 @@ Pose poseOn(const KeyframeMotion& motion, double seconds) {
     const Keyframe& from = motion.keyframes[i];
     if (time <= from.seconds || i + 1 == motion.keyframes.size()) return from.pose;
     const Keyframe& to = motion.keyframes[i + 1];
+    const bool linear = motion.interpolation == Interpolation::linear;
+    if (linear && from.pose == to.pose) return from.pose;
     const auto u = static_cast<float>((time - from.seconds) / (to.seconds - from.seconds));
     Pose pose;
     pose.rotation = glm::normalize(glm::slerp(from.pose.rotation, to.pose.rotation, u));
-    if (motion.interpolation == Interpolation::linear) {
+    if (linear) {
         pose.translation = glm::mix(from.pose.translation, to.pose.translation, u);
         pose.scale = glm::mix(from.pose.scale, to.pose.scale, u);
     } else {

@@ -3,8 +3,6 @@
 #include "vlf/base/parallel.h"
 
 #include <algorithm>
-#include <cstdio>
-#include <cstdlib>
 
 namespace vlf {
 
@@ -64,8 +62,6 @@ void ObjectLight::look(const DynamicObject& object, const Surroundings& around, 
         else
             findDirect(object, around);
     }
-    if (getenv("TIMES")) printf("[receivers %zu launches %zu entries %zu lines %zu] ", plan_->receivers->size(), plan_->gather.launches.size(), plan_->gather.entries.size(), lines_ ? lines_->data.entries.size() : 0);
-    if (getenv("NODELTA")) return;
     if (lines_)
         delta_.trace(lines_->data, object.pose, around.scene, around.rays, around.room, objects,
                      around.coverage, around.roomRadiance);

@@ -4,6 +4,8 @@
 #include "vlf/scene/generate/primitives.h"
 #include "vlf/scene/import/import.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 namespace vlf {
@@ -39,11 +41,23 @@ std::string ObjectSource::key() const {
 
 std::shared_ptr<const ObjectModel> ModelLibrary::model(const ObjectSource& source,
                                                        std::vector<std::string>& warnings) {
-    std::shared_ptr<const ObjectModel>& model = models_[source];
-    if (model) return model;
+    std::weak_ptr<const ObjectModel>& known = models_[source];
+    if (auto model = known.lock()) return model;
     Scene scene = sceneOf(source, warnings);
     for (Material& material : scene.materials) replace(material, source);
-    return model = std::make_shared<const ObjectModel>(std::move(scene));
+    const auto model = std::make_shared<const ObjectModel>(std::move(scene));
+    known = model;
+    return model;
+}
+
+std::string unusedName(const Scenario& scenario, const std::string& name) {
+    const auto used = [&](const std::string& candidate) {
+        return std::any_of(scenario.objects.begin(), scenario.objects.end(),
+                           [&](const ScenarioObject& o) { return o.object.name == candidate; });
+    };
+    std::string candidate = name;
+    for (int n = 2; used(candidate); ++n) candidate = fmt::format("{} {}", name, n);
+    return candidate;
 }
 
 void loadModels(Scenario& scenario, ModelLibrary& library, std::vector<std::string>& warnings) {

@@ -29,7 +29,7 @@ struct ObjectSource {
     std::string key() const;
 };
 
-/// Models by their source; objects of the same source share one.
+/// Models by their source; objects of the same source share one as long as there are any.
 class ModelLibrary {
   public:
     /// Throws as importScene, makePrimitive and ObjectModel. What the importer remarks is added to
@@ -38,7 +38,7 @@ class ModelLibrary {
                                              std::vector<std::string>& warnings);
 
   private:
-    std::map<ObjectSource, std::shared_ptr<const ObjectModel>> models_;
+    std::map<ObjectSource, std::weak_ptr<const ObjectModel>> models_;
 };
 
 struct ScenarioObject {
@@ -50,6 +50,9 @@ struct ScenarioObject {
 struct Scenario {
     std::vector<ScenarioObject> objects;
 };
+
+/// The name, with a number behind it if an object has it already.
+std::string unusedName(const Scenario& scenario, const std::string& name);
 
 /// Gives every object that has none its model. Throws as ModelLibrary::model, naming the object.
 void loadModels(Scenario& scenario, ModelLibrary& library, std::vector<std::string>& warnings);

@@ -132,29 +132,36 @@ std::string inBrackets(const ordered_json& json, const std::string& text) {
     return json.is_object() ? fmt::format("{{{}}}", text) : fmt::format("[{}]", text);
 }
 
+std::string quoted(const std::string& text) {
+    return ordered_json(text).dump(-1, ' ', false, ordered_json::error_handler_t::replace);
+}
+
+/// The elements, each as `textOfValue` has it.
+template <typename TextOf>
+std::vector<std::string> elements(const ordered_json& json, TextOf textOfValue) {
+    std::vector<std::string> all;
+    for (const auto& [key, value] : json.items())
+        all.push_back(json.is_object() ? fmt::format("{}: {}", quoted(key), textOfValue(value))
+                                       : textOfValue(value));
+    return all;
+}
+
 /// In one line.
 std::string inlineText(const ordered_json& json) {
-    if (!json.is_structured())
-        return json.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
-    std::string text;
-    for (const auto& [key, value] : json.items())
-        text += (text.empty() ? "" : ", ") +
-                (json.is_object() ? ordered_json(key).dump() + ": " : "") + inlineText(value);
-    return inBrackets(json, text);
+    if (json.is_string()) return quoted(json.get<std::string>());
+    if (!json.is_structured()) return json.dump();
+    return inBrackets(json, fmt::format("{}", fmt::join(elements(json, inlineText), ", ")));
 }
 
 /// What fits into a line is in one.
 std::string textOf(const ordered_json& json, std::size_t indent) {
-    const std::string line = inlineText(json);
+    std::string line = inlineText(json);
     if (!json.is_structured() || indent + line.size() <= kLineLength) return line;
-    const std::string margin(indent + 2, ' ');
-    std::string text;
-    for (const auto& [key, value] : json.items())
-        text += (text.empty() ? "\n" : ",\n") + margin +
-                (json.is_object() ? ordered_json(key).dump() + ": " : "") +
-                textOf(value, indent + 2);
-    text += "\n" + std::string(indent, ' ');
-    return inBrackets(json, text);
+    const auto deeper = [&](const ordered_json& value) { return textOf(value, indent + 2); };
+    const std::string newLine = fmt::format("\n{:{}}", "", indent);
+    const std::string separator = fmt::format(",{}  ", newLine);
+    return inBrackets(json, fmt::format("{}  {}{}", newLine,
+                                        fmt::join(elements(json, deeper), separator), newLine));
 }
 
 }  // namespace

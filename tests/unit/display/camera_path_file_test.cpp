@@ -64,12 +64,31 @@ TEST(CameraPathFile, GivesBackTheSameBits) {
     }
     samples.push_back({1000, {{0, 0, 0}, 0, CameraPose::kMostPitch, 50}});
     const CameraPath path(samples);
-    EXPECT_EQ(parseCameraPath(toText(path), "a").samples(), samples);
+    EXPECT_EQ(parseCameraPath(toText({path, {}}, "a"), "a").samples(), samples);
 
     const auto file = std::filesystem::path(testing::TempDir()) / "camera_path.json";
     writeCameraPath(file.string(), path);
     EXPECT_EQ(readCameraPath(file.string()).samples(), samples);
     std::filesystem::remove(file);
+}
+
+TEST(CameraPathFile, AWalkHoldsTheObjectsAndHowTheyMoved) {
+    Walk walk{parseCameraPath(kGood, "a"), {}};
+    EXPECT_NE(toText(walk, "a").find("\"version\": 1,"), std::string::npos)
+        << "readable by older programs";
+    ScenarioObject object;
+    object.source.file = "models/chair.obj";
+    object.object.name = "chair";
+    object.motion = KeyframeMotion{
+        {{0.5, {{1, 2, 3}}}, {1.5, {{3, 2, 1}}, false}}, Interpolation::linear, false};
+    walk.objects.objects = {object};
+    const Walk read = parseWalk(toText(walk, "walks/a.json"), "walks/a.json");
+    EXPECT_EQ(read.camera.samples(), walk.camera.samples());
+    ASSERT_EQ(read.objects.objects.size(), 1u);
+    EXPECT_EQ(std::filesystem::absolute(read.objects.objects[0].source.file).lexically_normal(),
+              std::filesystem::absolute("models/chair.obj"));
+    EXPECT_EQ(read.objects.objects[0].motion, object.motion);
+    EXPECT_EQ(parseCameraPath(toText(walk, "a"), "a").samples(), walk.camera.samples());
 }
 
 TEST(CameraPathFile, NamesWhatIsWrongAndWhere) {
@@ -78,7 +97,10 @@ TEST(CameraPathFile, NamesWhatIsWrongAndWhere) {
     expectRefused("[]", {"is no camera path"});
     expectRefused("{\"cameras\": []}", {"is no camera path", "vlf camera path"});
     expectRefused(with("\"version\": 1,", ""), {"has no \"version\""});
-    expectRefused(with("\"version\": 1,", "\"version\": 2,"), {"version: must be 1", "later"});
+    expectRefused(with("\"version\": 1,", "\"version\": 3,"), {"version: must be 1", "later"});
+    expectRefused(with("\"version\": 1,", "\"version\": 2,"), {"has no \"objects\""});
+    expectRefused(with("\"version\": 1,", R"("version": 2, "objects": [{"shape": "brick"}],)"),
+                  {"objects[0].shape: must be one of"});
     expectRefused(with("\"version\": 1,", "\"version\": \"1\","), {"version: must be 1"});
     expectRefused(with("\"camera\"", "\"kamera\""), {"has no \"camera\""});
     expectRefused(with("\"version\": 1,", "\"version\": 1, \"objects\": [],"), {"\"objects\""});

@@ -1,7 +1,9 @@
 #include "vlf/dynamic/motion.h"
 
 #include "vlf/base/error.h"
+#include "vlf/dynamic/motion_recorder.h"
 
+#include <algorithm>
 #include <limits>
 
 #include <gtest/gtest.h>
@@ -122,6 +124,32 @@ TEST(Motion, WhatStaysStays) {
     const Pose rest{{1, 2, 3}, aboutY(10), 0.5f};
     EXPECT_EQ(poseAt({}, rest, 17), rest);
     EXPECT_FALSE(moves({}));
+}
+
+TEST(MotionRecorder, EveryRecordedPoseIsMetAndRestsAreShort) {
+    MotionRecorder recorder;
+    EXPECT_TRUE(recorder.empty());
+    const auto poseOf = [](int frame) {
+        const int step = std::clamp(frame, 20, 30);  // rests, goes, rests
+        return Pose{{step, 0, 0}, aboutY(5.0f * step), 1};
+    };
+    for (int frame = 0; frame <= 50; ++frame)
+        recorder.record(frame / 30.0, poseOf(frame), frame != 40);
+    const KeyframeMotion& motion = recorder.motion();
+    EXPECT_NO_THROW(requireValid(motion));
+    EXPECT_LT(motion.keyframes.size(), 20u);
+    for (int frame = 0; frame <= 50; ++frame) {
+        EXPECT_EQ(poseAt(motion, {}, frame / 30.0), poseOf(frame)) << frame;
+        EXPECT_EQ(visibleAt(motion, true, frame / 30.0), frame != 40) << frame;
+    }
+}
+
+TEST(MotionRecorder, OfOneTimeTheLastCounts) {
+    MotionRecorder recorder;
+    recorder.record(1, {{1, 0, 0}}, true);
+    recorder.record(1, {{2, 0, 0}}, true);
+    EXPECT_EQ(recorder.motion().keyframes.size(), 1u);
+    EXPECT_EQ(poseAt(recorder.motion(), {}, 1).translation.x, 2);
 }
 
 TEST(Motion, WhatCannotBeFollowedIsRefused) {

@@ -29,9 +29,9 @@ const DirectionSet& Drawings::directionSet() {
 }
 
 void Drawings::wireframe(const View& view, bool normals, const std::function<void()>& drawTriangles,
-                         GLuint framebuffer) {
+                         const std::function<void(LinePass&)>& drawLines, GLuint framebuffer) {
     if (!wireframe_) wireframe_.emplace(scene_);
-    wireframe_->draw(lines_, view, normals, drawTriangles, framebuffer);
+    wireframe_->draw(lines_, view, normals, drawTriangles, drawLines, framebuffer);
 }
 
 void Drawings::directions(const std::optional<Sphere>& ball) {

@@ -27,9 +27,9 @@ class Drawings {
     Drawings(const Scene& scene, const LightField& field, ShaderLibrary& shaders)
         : scene_(scene), field_(field), shaders_(shaders), lines_(shaders) {}
 
-    /// `drawTriangles` draws those of the room, see LinePass::beginDepth.
+    /// As WireframeDrawing::draw.
     void wireframe(const View& view, bool normals, const std::function<void()>& drawTriangles,
-                   GLuint framebuffer);
+                   const std::function<void(LinePass&)>& drawLines, GLuint framebuffer);
 
     /// Over the dimmed room, which has just been drawn.
     void directions(const std::optional<Sphere>& ball);

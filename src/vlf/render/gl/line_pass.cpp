@@ -149,8 +149,9 @@ void LinePass::beginInk() {
     glBindVertexArray(noAttributes_.id());
 }
 
-void LinePass::draw(const LineBuffer& lines, const Defines& kind) {
+void LinePass::draw(const LineBuffer& lines, const Defines& kind, int object) {
     glUseProgram(shaders_.program("line", kind));
+    if (kind.contains("OBJECT")) glUniform1i(kObjectLocation, object);
     for (const int unit : {kLineUnit, kRoomDepthUnit}) glBindSampler(static_cast<GLuint>(unit), 0);
     glBindTextureUnit(kLineUnit, lines.texture.id());
     if (!depth_.textures.empty()) glBindTextureUnit(kRoomDepthUnit, depth_.textures[0].id());

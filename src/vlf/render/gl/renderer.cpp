@@ -7,16 +7,20 @@
 #include "vlf/render/gl/gl_state.h"
 #include "vlf/render/gl/gpu_memory.h"
 #include "vlf/render/gl/hit_buffers.h"
+#include "vlf/render/gl/object_pass.h"
 #include "vlf/render/gl/packed_radiance.h"
+#include "vlf/render/gl/reflection_probes.h"
 #include "vlf/render/gl/room_geometry.h"
+#include "vlf/render/gl/room_vertex_array.h"
 #include "vlf/render/gl/scene_textures.h"
 #include "vlf/render/gl/shader_library.h"
 #include "vlf/render/gl/tone_data.h"
 #include "vlf/trace/ray_scene.h"
 
 #include <algorithm>
-#include <cstddef>
 #include <map>
+#include <optional>
+#include <utility>
 #include <vector>
 
 namespace vlf {
@@ -31,29 +35,6 @@ using namespace shared;
 constexpr float kTolerance = 5;
 
 constexpr float kNearest = 1e-3f;  ///< the near plane, of the field's radius
-
-VertexArray makeRoomVertexArray(const Buffer& vertices, const Buffer& indices) {
-    VertexArray array = makeVertexArray();
-    const GLuint id = array.id();
-    glVertexArrayVertexBuffer(id, 0, vertices.id(), 0, sizeof(RoomVertex));
-    glVertexArrayElementBuffer(id, indices.id());
-    const auto floats = [&](GLuint attribute, int count, std::size_t offset) {
-        glVertexArrayAttribFormat(id, attribute, count, GL_FLOAT, GL_FALSE,
-                                  static_cast<GLuint>(offset));
-    };
-    floats(kPositionAttribute, 3, offsetof(RoomVertex, position));
-    glVertexArrayAttribFormat(id, kGeometricNormalAttribute, 2, GL_SHORT, GL_TRUE,
-                              offsetof(RoomVertex, geometricNormal));
-    floats(kUvAttribute, 2, offsetof(RoomVertex, uv));
-    floats(kAtlasUvAttribute, 2, offsetof(RoomVertex, atlasUv));
-    glVertexArrayAttribIFormat(id, kMirrorAttribute, 1, GL_UNSIGNED_INT,
-                               offsetof(RoomVertex, mirror));
-    for (int a = kPositionAttribute; a <= kMirrorAttribute; ++a) {
-        glVertexArrayAttribBinding(id, static_cast<GLuint>(a), 0);
-        glEnableVertexArrayAttrib(id, static_cast<GLuint>(a));
-    }
-    return array;
-}
 
 void requireLimit(std::uint64_t needed, GLenum limit, const std::string& what) {
     GLint most = 0;
@@ -104,7 +85,8 @@ struct Renderer::Impl {
           lightField(field),
           shaders(options.shaderFolder),
           textures(scene),
-          fit(field, textureSide(options)) {
+          fit(field, textureSide(options)),
+          objects(shaders, hits) {
         if (field.triangleCharts.size() != scene.triangles.size())
             throw InputError("the light field belongs to another scene: bake this one");
         const RoomGeometry room = makeRoomGeometry(scene, fit.layout());
@@ -191,7 +173,8 @@ struct Renderer::Impl {
     }
 
     /// Of the variant of the shader that draws a batch.
-    Defines definesOf(const RoomBatch& batch, const RenderSettings& settings) const {
+    Defines definesOf(const RoomBatch& batch, const RenderSettings& settings,
+                      bool probed = false) const {
         const bool traced = settings.mode == DisplayMode::raytraced;
         Defines d;
         if (scene.materials[batch.material].diffuseTexture >= 0) d.emplace("DIFFUSE_MAP", "1");
@@ -200,6 +183,10 @@ struct Renderer::Impl {
             d.emplace("MIRROR", traced ? "\"traced_reflection.glsl\"" : "\"radiance_field.glsl\"");
         if (batch.mirror && !traced && settings.lookup == LookupKind::plain)
             d.emplace("PLAIN", "1");
+        if (batch.mirror && !objects.empty()) d.emplace("OBJECTS", "1");
+        if (probed) d.emplace("PROBED", std::to_string(ReflectionProbes::kSize));
+        if (batch.mirror && !probed && !traced && !objects.probeCentres().empty())
+            d.emplace("PROBES", "1");
         if (batch.mirror && !traced && fourATexel) d.emplace("FOUR_A_TEXEL", "1");
         return d;
     }
@@ -208,7 +195,7 @@ struct Renderer::Impl {
         if (!showsRadiance(mode)) {
             if (!drawings) drawings.emplace(scene, lightField, shaders);
         } else if (mode == DisplayMode::raytraced) {
-            if (!hits) loadHits();
+            if (!hits.hasRoom()) loadHits();
         } else if (mode != DisplayMode::field) {
             throw InputError("mode progressive takes many calls: it is ProgressiveRenderer's");
         } else if (!canLookUp) {
@@ -220,17 +207,30 @@ struct Renderer::Impl {
 
     void loadHits() {
         const LightField layout = fit.layout();
-        hits.emplace(scene, layout.charts, layout.triangleCharts, mirrorTriangles);
-        memory.hits = hits->bytes();
+        hits.loadRoom(scene, layout.charts, layout.triangleCharts, mirrorTriangles);
+        objects.hitsReloaded();
+        memory.hits = hits.bytes();
+    }
+
+    void updateObjects(const DynamicRoom& room) {
+        if (!change)
+            change.emplace(scene, lightField,
+                           !mirrorTriangles.empty() && canLookUp && fit.unchanged());
+        change->update(room.irradiance(), room.roomIrradiance());
+        objects.update(room);
+        objects.setChange(*change);
+        probesStale = true;
+        if (room.irradianceVersion() != roomVersion) loadIrradiance(room.irradiance());
+        roomVersion = room.irradianceVersion();
+        memory.hits = hits.bytes();
+        memory.objects = objects.bytes() + change->bytes() + probes.bytes();
+        ++lightChanges;
     }
 
     void draw(const View& view, const RenderSettings& settings, GLuint framebuffer) {
         makeReady(settings.mode);
         const StateGuard guard;
-        viewData.clipFromWorld = view.clipFromWorld;
-        viewData.eye = Vec4(view.eye, rayStart);
-        viewData.tone = toneData(settings);
-        glNamedBufferSubData(viewBuffer.id(), 0, sizeof viewData, &viewData);
+        setView(view, settings);
         if (settings.mode == DisplayMode::wireframe)
             drawWireframe(view, settings, framebuffer);
         else if (settings.mode == DisplayMode::diagram)
@@ -241,8 +241,54 @@ struct Renderer::Impl {
     }
 
     void drawRoom(const View& view, const RenderSettings& settings, GLuint framebuffer) {
+        if (settings.mode == DisplayMode::field) drawProbes();
         prepare(view, framebuffer);
-        for (std::size_t i = 0; i < batches.size(); ++i) drawBatch(i, settings);
+        if (!objects.empty()) {
+            bindObjects();
+            objects.draw(settings);
+        }
+        drawBatches(settings);
+    }
+
+    void bindObjects() const {
+        objects.bind();
+        change->bind();
+        probes.bind();
+    }
+
+    void drawBatches(const RenderSettings& settings, bool probed = false) {
+        glBindVertexArray(vertexArray.id());
+        for (std::size_t i = 0; i < batches.size(); ++i)
+            drawBatch(i, definesOf(batches[i], settings, probed));
+    }
+
+    /// What mirror objects show, if it may have changed.
+    void drawProbes() {
+        if (objects.probeCentres().empty() || !std::exchange(probesStale, false)) return;
+        RenderSettings settings;
+        settings.tone.reset();
+        const ViewData shown = viewData;
+        probes.draw(objects.probeCentres(), nearest,
+                    [&](const Mat4& clipFromWorld, const Vec3& eye, GLuint framebuffer) {
+                        View face;
+                        face.width = face.height = ReflectionProbes::kSize;
+                        face.clipFromWorld = clipFromWorld;
+                        face.eye = eye;
+                        setView(face, settings);
+                        prepare(face, framebuffer);
+                        bindObjects();
+                        drawBatches(settings, true);
+                    });
+        viewData = shown;
+        glNamedBufferSubData(viewBuffer.id(), 0, sizeof viewData, &viewData);
+        memory.objects = objects.bytes() + change->bytes() + probes.bytes();
+    }
+
+    void setView(const View& view, const RenderSettings& settings) {
+        viewData.clipFromWorld = view.clipFromWorld;
+        viewData.eye = Vec4(view.eye, rayStart);
+        viewData.tone = toneData(settings);
+        glNamedBufferSubData(viewBuffer.id(), 0, sizeof viewData, &viewData);
     }
 
     void drawWireframe(const View& view, const RenderSettings& settings, GLuint framebuffer) {
@@ -250,8 +296,10 @@ struct Renderer::Impl {
         const auto drawTriangles = [&] {
             glBindVertexArray(vertexArray.id());
             glDrawElements(GL_TRIANGLES, indexCount, GL_UNSIGNED_INT, nullptr);
+            objects.drawTriangles(shaders.program("depth", {{"OBJECT", "1"}}));
         };
-        drawings->wireframe(view, settings.normals, drawTriangles, framebuffer);
+        const auto drawLines = [&](LinePass& lines) { objects.drawLines(lines, settings.normals); };
+        drawings->wireframe(view, settings.normals, drawTriangles, drawLines, framebuffer);
     }
 
     void drawDiagram(const View& view, const RenderSettings& settings, GLuint framebuffer) {
@@ -294,22 +342,22 @@ struct Renderer::Impl {
         glClearColor(0, 0, 0, 1);
         glClearDepthf(1);
         glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-        glBindVertexArray(vertexArray.id());
         glBindBufferBase(GL_UNIFORM_BUFFER, kViewBlock, viewBuffer.id());
         for (int unit = 0; unit < kUnits; ++unit) glBindSampler(static_cast<GLuint>(unit), 0);
         glBindTextureUnit(kIrradianceUnit, atlas.id());
         glBindTextureUnit(kElementUnit, elementTexture.id());
         glBindTextureUnit(kRecordUnit, recordTexture.id());
-        if (hits) hits->bind();
+        hits.bind();
     }
 
-    void drawBatch(std::size_t i, const RenderSettings& settings) {
+    void drawBatch(std::size_t i, const Defines& defines) {
         const RoomBatch& batch = batches[i];
         const Material& material = scene.materials[batch.material];
-        glUseProgram(shaders.program("surface", definesOf(batch, settings)));
+        glUseProgram(shaders.program("surface", defines));
         (batch.cull ? glEnable : glDisable)(GL_CULL_FACE);
         textures.bind(kDiffuseUnit, material.diffuseTexture);
         textures.bind(kEmissionUnit, material.emissionTexture);
+        textures.bind(kMirrorMapUnit, material.mirrorTexture);
         glBindBufferBase(GL_UNIFORM_BUFFER, kMaterialBlock, materialBuffers[i].id());
         glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(batch.indexCount), GL_UNSIGNED_INT,
                        reinterpret_cast<const void*>(4 * std::size_t{batch.firstIndex}));
@@ -326,7 +374,12 @@ struct Renderer::Impl {
     AtlasFit fit;
     TextureObject atlas, elementTexture, recordTexture;
     std::vector<std::uint32_t> mirrorTriangles;
-    std::optional<HitBuffers> hits;    ///< once reflections are traced
+    HitBuffers hits;  ///< of the room once reflections are traced
+    ObjectPass objects;
+    std::optional<ChangedLight> change;  ///< once objects have been there
+    ReflectionProbes probes;
+    bool probesStale = true;
+    std::uint64_t roomVersion = 0;  ///< of the DynamicRoom's irradiance
     std::optional<Drawings> drawings;  ///< once one is drawn
     GLsizei indexCount = 0;
     ViewData viewData{};
@@ -357,7 +410,12 @@ Camera Renderer::diagramView(const DiagramParams& params, const Camera& camera, 
 
 void Renderer::updateIrradiance(const IrradianceAtlas& atlas) {
     impl_->loadIrradiance(atlas);
+    impl_->probesStale = true;
     ++impl_->lightChanges;
+}
+
+void Renderer::updateObjects(const DynamicRoom& room) {
+    impl_->updateObjects(room);
 }
 
 bool Renderer::canLookUp() const {
@@ -370,6 +428,7 @@ std::uint64_t Renderer::lightChanges() const {
 
 void Renderer::reloadShaders() {
     impl_->shaders.reload();
+    impl_->probesStale = true;
 }
 
 float Renderer::nearest() const {

@@ -3,6 +3,7 @@
 // comes from the irradiance atlas, mirrors from the radiance field, which is the same few lookups
 // per pixel in every room, or by tracing reflections.
 
+#include "vlf/dynamic/dynamic_room.h"
 #include "vlf/field/light_field.h"
 #include "vlf/image/tone_map.h"
 #include "vlf/render/cpu/still.h"
@@ -48,9 +49,10 @@ struct GpuMemory {
     std::uint64_t geometry = 0, atlas = 0, radiance = 0, textures = 0;
     std::uint64_t hits = 0;      ///< of traced reflections, once they have been drawn
     std::uint64_t drawings = 0;  ///< of modes wireframe and diagram, likewise
+    std::uint64_t objects = 0;   ///< but for what is in `hits`
     std::uint64_t radianceElements = 0;
 
-    std::uint64_t total() const { return geometry + atlas + radiance + textures + hits + drawings; }
+    std::uint64_t total() const { return geometry + atlas + radiance + textures + hits + drawings + objects; }
 };
 
 /// Every call, construction and destruction included, needs the context current in which it was
@@ -81,10 +83,16 @@ class Renderer {
     /// The light has changed: the atlas is of the same charts as before.
     void updateIrradiance(const IrradianceAtlas& atlas);
 
+    /// Draws the visible objects of `room` from now on, and the room in the light that it has with
+    /// them (as updateIrradiance does). To be called after each DynamicRoom::update(), always with
+    /// the same one, which must be of this scene and field; copies what has changed. Throws
+    /// InputError if that exceeds what the GPU can hold.
+    void updateObjects(const DynamicRoom& room);
+
     /// Whether mode `field` can be drawn.
     bool canLookUp() const;
 
-    /// How often the light has changed.
+    /// How often the light or objects have changed.
     std::uint64_t lightChanges() const;
 
     /// The files of options.shaderFolder have changed: makes the shaders anew. Throws InputError

@@ -1,6 +1,7 @@
 #include "vlf/render/gl/room_geometry.h"
 
-#include <cmath>
+#include "vlf/render/gl/octahedron.h"
+
 #include <map>
 #include <tuple>
 #include <unordered_map>
@@ -16,16 +17,6 @@ struct Side {
     bool front;
     bool cull;
 };
-
-std::array<std::int16_t, 2> toOctahedron(const Vec3& n) {
-    const float sum = std::abs(n.x) + std::abs(n.y) + std::abs(n.z);
-    Vec2 e = Vec2(n) / (sum > 0 ? sum : 1);
-    if (n.z < 0)
-        e = Vec2((1 - std::abs(e.y)) * (e.x < 0 ? -1.0f : 1.0f),
-                 (1 - std::abs(e.x)) * (e.y < 0 ? -1.0f : 1.0f));
-    const auto code = [](float v) { return static_cast<std::int16_t>(std::lround(v * 32767)); };
-    return {code(e.x), code(e.y)};
-}
 
 class GeometryMaker {
   public:
@@ -73,6 +64,7 @@ class GeometryMaker {
         const bool emits = first.front || material.emitsBothSides;
         const float lit = first.chart == kNoChart ? 0 : 1;
         batch.data.diffuse = Vec4(lit * material.diffuse, 0);
+        batch.data.mirror = Vec4(lit * material.mirror, 0);
         batch.data.emission = Vec4((emits ? lit : 0) * material.emission, 0);
         batch.data.flags = Vec4(first.cull ? 0 : 1, room_.mirrorTriangles.size(), 0, 0);
         batch.firstIndex = static_cast<std::uint32_t>(room_.indices.size());
@@ -108,6 +100,8 @@ class GeometryMaker {
         if (!mirror) return v;
         const float sign = side.front ? 1.0f : -1.0f;
         v.geometricNormal = toOctahedron(sign * geometricNormal(scene_, side.triangle));
+        v.mirrorNormal =
+            chart.planar ? v.geometricNormal : toOctahedron(sign * scene_.normals[vertex]);
         v.mirror = mirrorOf_.at(side.chart);
         return v;
     }

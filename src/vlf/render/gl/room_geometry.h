@@ -14,12 +14,13 @@ namespace vlf {
 
 struct RoomVertex {
     Vec3 position{0};
-    std::array<std::int16_t, 2> geometricNormal{};  ///< octahedral; of mirrors only
+    std::array<std::int16_t, 2> geometricNormal{};  ///< octahedral, as the next; of mirrors only
+    std::array<std::int16_t, 2> mirrorNormal{};     ///< about which the mirror reflects
     Vec2 uv{0};                                     ///< of textures, v downwards
     Vec2 atlasUv{0};                                ///< in [0, 1]²
     std::uint32_t mirror = 0;                       ///< index into RoomGeometry::mirrorCharts
 };
-static_assert(sizeof(RoomVertex) == 36);
+static_assert(sizeof(RoomVertex) == 40);
 
 /// Triangles of one material and side, drawn in one call.
 struct RoomBatch {

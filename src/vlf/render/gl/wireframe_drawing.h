@@ -15,9 +15,11 @@ class WireframeDrawing {
   public:
     explicit WireframeDrawing(const Scene& scene);
 
-    /// `drawTriangles` draws those of the room, see LinePass::beginDepth.
+    /// `drawTriangles` draws those of room and objects, see LinePass::beginDepth; `drawLines` the
+    /// objects' lines.
     void draw(LinePass& pass, const View& view, bool normals,
-              const std::function<void()>& drawTriangles, GLuint framebuffer);
+              const std::function<void()>& drawTriangles,
+              const std::function<void(LinePass&)>& drawLines, GLuint framebuffer);
 
     std::uint64_t bytes() const { return edges_.bytes + (normals_ ? normals_->bytes : 0); }
 

@@ -3,11 +3,23 @@
 #include "shared.h"
 #include "view.glsl"
 #include "trace.glsl"
+#ifdef OBJECTS
+#include "objects.glsl"
+#endif
 
 layout(binding = kHitRecordUnit) uniform usamplerBuffer hitRecords;
 layout(binding = kHitTexelUnit) uniform usamplerBuffer hitTexels;
 
 const uint kNoRecord = 0xffffffffu;
+
+#ifdef OBJECTS
+Body body = kRoomBody;  // whose records are read, in whose space surfaces are
+#else
+struct Body {
+    uint firstRecord, firstTexel;
+};
+const Body body = Body(0u, 0u);
+#endif
 
 // Both normals are unit and lie on the side that is hit.
 struct HitSurface {
@@ -16,10 +28,14 @@ struct HitSurface {
     uvec4 range;  // the third texel of the side's chart
     uint chart;   // kNoRecord: black
     bool front;
+#ifdef OBJECTS
+    uvec3 vertices;  // records
+    vec2 barycentric;
+#endif
 };
 
 uvec4 hitRecord(uint texel) {
-    return texelFetch(hitRecords, int(texel));
+    return texelFetch(hitRecords, int(body.firstRecord + texel));
 }
 
 vec3 interpolated(mat3 corners, vec2 barycentric) {
@@ -52,6 +68,10 @@ HitSurface surfaceAt(TraceHit hit, vec3 direction) {
     float size = length(n);
     s.normal = size > 1e-6 ? n / size : s.geometricNormal;
     if (dot(s.normal, s.geometricNormal) < 0) s.normal = -s.normal;
+#ifdef OBJECTS
+    s.vertices = side.xyz;
+    s.barycentric = hit.barycentric;
+#endif
     return s;
 }
 
@@ -68,7 +88,7 @@ float reduced(float t, int mode) {
 }
 
 vec3 hitTexel(uint texel) {
-    uint code = texelFetch(hitTexels, int(texel)).r;
+    uint code = texelFetch(hitTexels, int(body.firstTexel + texel)).r;
     uvec3 mantissa = uvec3(code, code >> 9, code >> 18) & 511u;
     return vec3(mantissa) * exp2(float(code >> 27) - 24);
 }
@@ -99,6 +119,11 @@ vec3 irradianceAt(HitSurface s) {
     vec4 u = uintBitsToFloat(hitRecord(s.chart)), v = uintBitsToFloat(hitRecord(s.chart + 1u));
     vec2 at = vec2(dot(u.xyz, s.position) + u.w, dot(v.xyz, s.position) + v.w);
     at = clamp(at, vec2(s.range.xy & 0xffffu), vec2(s.range.xy >> 16));
+#ifdef OBJECTS
+    if (body.object >= 0)
+        return body.litByTexel ? irradianceAtTexel(body, at)
+                               : irradianceAtVertices(body, s.vertices, s.front, s.barycentric);
+#endif
     return textureLod(irradianceAtlas, at / vec2(textureSize(irradianceAtlas, 0)), 0).rgb;
 }
 

@@ -1,8 +1,15 @@
 // A line through space as two triangles around its image; six vertices a line. HIDING: the room
 // hides lines, which are paler with distance. EDGES: the lines are edges of the mesh. NORMALS: they
-// are shading normals, drawn on the side that is seen.
+// are shading normals, drawn on the side that is seen. OBJECT: they are in an object's space.
 #include "shared.h"
 #include "drawing.glsl"
+#ifdef OBJECT
+#include "object_place.glsl"
+#else
+vec3 placed(vec4 p) {
+    return p.xyz;
+}
+#endif
 
 layout(binding = kLineUnit) uniform samplerBuffer lines;
 #ifdef NORMALS
@@ -62,8 +69,9 @@ void choosePens(int line, vec3 from) {
 #ifdef EDGES
     vec3 toEye = drawing.eye.xyz - from;
     bool crease = texelFetch(lines, kEdgeTexels * line).w != 0;
-    bool contour = dot(texelFetch(lines, kEdgeTexels * line + 2).xyz, toEye) *
-                       dot(texelFetch(lines, kEdgeTexels * line + 3).xyz, toEye) < 0;
+    vec4 a = vec4(texelFetch(lines, kEdgeTexels * line + 2).xyz, 0);
+    vec4 b = vec4(texelFetch(lines, kEdgeTexels * line + 3).xyz, 0);
+    bool contour = dot(placed(a), toEye) * dot(placed(b), toEye) < 0;
 #ifdef HIDING
     pen = crease || contour ? kCreasePen : kTriangleEdgePen;
     if (crease) hiddenPen = kHiddenPen;
@@ -82,7 +90,8 @@ void main() {
 #else
     int at = kLineTexels * line;
 #endif
-    vec3 from = texelFetch(lines, at).xyz, to = texelFetch(lines, at + 1).xyz;
+    vec3 from = placed(vec4(texelFetch(lines, at).xyz, 1));
+    vec3 to = placed(vec4(texelFetch(lines, at + 1).xyz, 1));
     choosePens(line, from);
 #ifdef NORMALS
     if (dot(to - from, drawing.eye.xyz - from) < 0) to = 2 * from - to;

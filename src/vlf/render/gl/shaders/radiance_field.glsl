@@ -6,6 +6,9 @@ layout(binding = kElementUnit) uniform usamplerBuffer elements;
 layout(binding = kRecordUnit) uniform usamplerBuffer records;
 
 #include "direction_set.glsl"
+#ifdef OBJECTS
+#include "mirrored_objects.glsl"
+#endif
 
 const float kMinCosine = 1e-3;
 const float kNone = 1e30;  // no depth
@@ -99,13 +102,15 @@ Sight sightOf(Direction d, float weight, float sense, vec3 toEye) {
 }
 
 #ifdef PLAIN
-vec4 bilinear(Sight s) {
+// Adds the depths, too, as often as radiances count.
+vec4 bilinear(Sight s, inout float depth) {
     vec4 weights;
     uvec4 e = elementsAround(s.record, s.cell, weights);
     vec4 sum = vec4(0);
     for (int i = 0; i < 4; ++i) {
         float root = rootOf(e[i]), w = e[i] != 0u ? s.weight * weights[i] : 0;
         sum += w * vec4(radianceOf(root * root, sharesOf(e[i])), 1);
+        depth += w * distanceOf(e[i]) * s.metres;
     }
     return sum;
 }
@@ -115,8 +120,16 @@ vec3 mirrorRadiance() {
     float sense = toEye.y < 0 ? -1 : 1;
     Triple t = tripleOf(sense * toEye);
     vec4 sum = vec4(0);
-    for (int k = 0; k < 3; ++k) sum += bilinear(sightOf(t.corner[k], t.weight[k], sense, toEye));
-    return sum.w > 0 ? sum.rgb / sum.w : vec3(0);
+    float depth = 0;
+    for (int k = 0; k < 3; ++k)
+        sum += bilinear(sightOf(t.corner[k], t.weight[k], sense, toEye), depth);
+    vec3 radiance = sum.w > 0 ? sum.rgb / sum.w : vec3(0);
+#ifdef OBJECTS
+    float distance_ = sum.w > 0 ? depth / sum.w : kNone;
+    return withObjects(radiance, radiance, distance_, distance_, 1, toEye);
+#else
+    return radiance;
+#endif
 }
 #else
 const int kSteps = 4;
@@ -182,6 +195,10 @@ Layer layerAt(Sight sights[3], float depth) {
     return l;
 }
 
+vec3 radianceOf(Layer l) {
+    return l.inverseRoot > 0 ? radianceOf(1 / (l.inverseRoot * l.inverseRoot), l.shares) : vec3(0);
+}
+
 // How much of the line of sight ends in a layer; at an edge the samples vote.
 float coverageOf(Layer l) {
     if (l.surface == 0) return 0;
@@ -210,6 +227,10 @@ vec3 mirrorRadiance() {
     if (front.weight == 0) coverage = 0;
     float inverseRoot = mix(back.inverseRoot, front.inverseRoot, coverage);
     vec2 shares = mix(back.shares, front.shares, coverage);
-    return inverseRoot > 0 ? radianceOf(1 / (inverseRoot * inverseRoot), shares) : vec3(0);
+    vec3 seen = inverseRoot > 0 ? radianceOf(1 / (inverseRoot * inverseRoot), shares) : vec3(0);
+#ifdef OBJECTS
+    seen = withObjects(seen, radianceOf(front), nearest, behind, coverage, toEye);
+#endif
+    return seen;
 }
 #endif

@@ -7,6 +7,7 @@
 namespace vlf::shared {
 #define VLF_INT inline constexpr int
 using vec4 = Vec4;
+using ivec4 = glm::ivec4;
 using mat4 = Mat4;
 #else
 #define VLF_INT const int
@@ -18,6 +19,7 @@ VLF_INT kGeometricNormalAttribute = 1;  // octahedral
 VLF_INT kUvAttribute = 2;
 VLF_INT kAtlasUvAttribute = 3;
 VLF_INT kMirrorAttribute = 4;  // number of the mirror chart
+VLF_INT kMirrorNormalAttribute = 5;
 
 // Texture units.
 VLF_INT kIrradianceUnit = 0;
@@ -30,7 +32,13 @@ VLF_INT kBvhTriangleUnit = 6;
 VLF_INT kHitRecordUnit = 7;
 VLF_INT kHitTexelUnit = 8;
 VLF_INT kMirrorTriangleUnit = 9;  // the scene's triangles by those of the mirrors' batches
-VLF_INT kUnits = 10;
+VLF_INT kObjectUnit = 10;         // where objects are, and what of theirs lies where
+VLF_INT kVertexLightUnit = 11;    // irradiance at their vertices
+VLF_INT kObjectAtlasUnit = 12;    // and at their texels
+VLF_INT kMirrorMapUnit = 13;
+VLF_INT kChangeUnit = 14;         // how objects change the irradiance atlas
+VLF_INT kProbeUnit = 15;          // reflection probes of mirror objects
+VLF_INT kUnits = 16;
 VLF_INT kPictureUnit = 0;  // of picture_mean.frag, as are these uniforms
 VLF_INT kSizeLocation = 0;
 VLF_INT kWeightLocation = 1;
@@ -38,6 +46,23 @@ VLF_INT kWeightLocation = 1;
 // Uniform blocks.
 VLF_INT kViewBlock = 0;
 VLF_INT kMaterialBlock = 1;
+VLF_INT kObjectsBlock = 4;
+
+// Uniforms of object.vert and of line drawings of objects.
+VLF_INT kObjectLocation = 0;  // the number of the object
+
+// Texels of an object in kObjectUnit; floats are held by their bits.
+//     three rows of the matrix from its space to the world's
+//     sphere around it in the world: centre, radius
+//     1 / scale^2; first node, nodes, first triangle of its hierarchy
+//     first of its records, first of its texels (hit_surfaces.h); first record of a vertex; first of
+//     its vertices' irradiances
+//     place in the atlas; flags; irradiances from those of the front sides to those of the back
+VLF_INT kObjectTexels = 7;
+VLF_INT kLitByTexel = 1;  // the flag
+VLF_INT kProbeShift = 8;  // bits from here on: layer of the reflection probe + 1; 0: none
+
+VLF_INT kMostReceivers = 32;
 
 // An element of the radiance field, from the lowest bit: the distance (0: none), then the sum of
 // red, green and blue on a logarithmic scale, then the shares of red and blue in it.
@@ -72,13 +97,32 @@ struct ViewData {
 
 struct MaterialData {
     vec4 diffuse;   // reflectance
+    vec4 mirror;    // reflectance
     vec4 emission;  // W m^-2 sr^-1
     vec4 flags;     // x: whether the back is black; y: the batch's first triangle among mirrors'
 };
 
+// A chart whose light the objects change, as in dynamic/changed_charts.h.
+struct ReceiverData {
+    vec4 uAxis;   // texel coordinates: axis and offset
+    vec4 vAxis;
+    vec4 normal;  // and the least coordinate along it
+    vec4 range;   // first and last of the texel coordinates that have changed
+    vec4 place;   // in the atlas; greatest coordinate along the normal; whether it is a plane
+};
+
+// Of all objects.
+struct ObjectsData {
+    vec4 sphere;     // around all of them: centre, radius
+    ivec4 counts;    // objects; nodes of the room's hierarchy; receivers
+    vec4 tolerance;  // metres between a surface and where the radiance field tells it
+    ReceiverData receivers[kMostReceivers];
+};
+
 #ifdef __cplusplus
 #undef VLF_INT
+static_assert(sizeof(ObjectsData) == 3 * 16 + kMostReceivers * 5 * 16);
 static_assert(sizeof(ViewData) == 64 + 6 * 16);
-static_assert(sizeof(MaterialData) == 3 * 16);
+static_assert(sizeof(MaterialData) == 4 * 16);
 }  // namespace vlf::shared
 #endif

@@ -14,6 +14,10 @@ in vec2 atlasUv;
 in vec3 position;
 flat in vec3 geometricNormal;
 flat in uint mirror;
+#ifdef OBJECTS
+layout(binding = kMirrorMapUnit) uniform sampler2D mirrorMap;
+in vec3 mirrorNormal;
+#endif
 #include MIRROR
 #endif
 
@@ -36,4 +40,9 @@ void main() {
     radiance += mirrorRadiance();
 #endif
     color = outputColor(radiance);
+#ifdef PROBED
+    // The inverse of the distance; the picture is a face of a cube.
+    vec2 onFace = 2 * gl_FragCoord.xy / PROBED - 1;
+    color.a = gl_FragCoord.w / length(vec3(onFace, 1));
+#endif
 }

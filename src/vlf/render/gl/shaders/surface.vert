@@ -12,12 +12,12 @@ layout(location = kMirrorAttribute) in uint mirrorIn;
 out vec3 position;
 flat out vec3 geometricNormal;
 flat out uint mirror;
+#ifdef OBJECTS
+layout(location = kMirrorNormalAttribute) in vec2 mirrorNormalIn;
+out vec3 mirrorNormal;
+#endif
 
-vec3 fromOctahedron(vec2 e) {
-    vec3 v = vec3(e, 1 - abs(e.x) - abs(e.y));
-    if (v.z < 0) v.xy = (1 - abs(v.yx)) * vec2(v.x < 0 ? -1 : 1, v.y < 0 ? -1 : 1);
-    return normalize(v);
-}
+#include "octahedron.glsl"
 #endif
 out vec2 uv;
 out vec2 atlasUv;
@@ -30,5 +30,8 @@ void main() {
     position = positionIn;
     geometricNormal = fromOctahedron(geometricNormalIn);
     mirror = mirrorIn;
+#ifdef OBJECTS
+    mirrorNormal = fromOctahedron(mirrorNormalIn);
+#endif
 #endif
 }

@@ -23,17 +23,29 @@ struct TraceHit {
     vec2 barycentric;
 };
 
+// A hierarchy among those that the buffers hold one behind the other; each counts from its own
+// first node and triangle.
+struct TraceBody {
+    int firstNode, nodes, firstTriangle;
+};
+
+TraceBody onlyBody() {
+    return TraceBody(0, textureSize(bvhNodes) / 2, 0);
+}
+
 // A query on its way.
 struct TraceWalk {
     vec3 origin, direction, reciprocal;
     float tMin;
-    int at, end;  // the node to visit next, and the number of nodes
+    int at, end;  // the node to visit next, and that behind the last one
+    int firstNode, firstTriangle;
 };
 
-TraceWalk beginWalk(vec3 origin, vec3 direction, float tMin) {
+TraceWalk beginWalk(TraceBody body, vec3 origin, vec3 direction, float tMin) {
     // 1 / 0 would make 0 * inf of a ray in the plane of a box's side.
     vec3 d = mix(direction, vec3(1.0e-20), lessThan(abs(direction), vec3(1.0e-20)));
-    return TraceWalk(origin, direction, 1.0 / d, tMin, 0, textureSize(bvhNodes) / 2);
+    return TraceWalk(origin, direction, 1.0 / d, tMin, body.firstNode, body.firstNode + body.nodes,
+                     body.firstNode, body.firstTriangle);
 }
 
 // Goes on to the next leaf whose box the ray is in somewhere in (tMin, tMax) and returns its word,
@@ -50,7 +62,8 @@ uint nextLeaf(inout TraceWalk walk, float tMax) {
                        min(min(far.x, far.y), min(far.z, tMax));
         uint word = floatBitsToUint(upper.w);
         bool inner = entered && word == 0u;
-        walk.at = inner ? walk.at + 1 : int(floatBitsToUint(lower.w) & kBvhIndex);
+        walk.at = inner ? walk.at + 1
+                        : walk.firstNode + int(floatBitsToUint(lower.w) & kBvhIndex);
         if (entered) leaf = word;
     }
     return leaf;
@@ -72,25 +85,31 @@ void hitTriangle(TraceWalk walk, int index, inout TraceHit hit) {
 }
 
 void hitLeaf(TraceWalk walk, uint leaf, inout TraceHit hit) {
-    int first = int(leaf & kBvhIndex), count = int(leaf >> 27 & 7u);
+    int first = walk.firstTriangle + int(leaf & kBvhIndex), count = int(leaf >> 27 & 7u);
     for (int i = 0; i < count; ++i) hitTriangle(walk, first + i, hit);
+}
+
+// The closest intersection of a body beyond tMin, if it is nearer than `hit`; false if there is none.
+bool traceNearer(TraceBody body, vec3 origin, vec3 direction, float tMin, inout TraceHit hit) {
+    float before = hit.t;
+    TraceWalk walk = beginWalk(body, origin, direction, tMin);
+    while (walk.at < walk.end) {
+        uint leaf = nextLeaf(walk, hit.t);
+        hitLeaf(walk, leaf, hit);
+    }
+    return hit.t < before;
 }
 
 // The closest intersection beyond tMin; false if there is none.
 bool traceClosest(vec3 origin, vec3 direction, float tMin, out TraceHit hit) {
     hit = TraceHit(kNoTriangle, 3.0e38, vec2(0.0));
-    TraceWalk walk = beginWalk(origin, direction, tMin);
-    while (walk.at < walk.end) {
-        uint leaf = nextLeaf(walk, hit.t);
-        hitLeaf(walk, leaf, hit);
-    }
-    return hit.triangle != kNoTriangle;
+    return traceNearer(onlyBody(), origin, direction, tMin, hit);
 }
 
 // True if anything lies in (tMin, tMax).
 bool traceAny(vec3 origin, vec3 direction, float tMin, float tMax) {
     TraceHit hit = TraceHit(kNoTriangle, tMax, vec2(0.0));
-    TraceWalk walk = beginWalk(origin, direction, tMin);
+    TraceWalk walk = beginWalk(onlyBody(), origin, direction, tMin);
     while (walk.at < walk.end && hit.triangle == kNoTriangle) {
         uint leaf = nextLeaf(walk, tMax);
         hitLeaf(walk, leaf, hit);

@@ -1,10 +1,7 @@
-// What a mirror shows, by tracing its reflections; as render/cpu/field_shader.cpp.
-#include "hit_surface.glsl"
+// What a mirror of the room shows, by tracing its reflections.
+#include "traced_path.glsl"
 
 layout(binding = kMirrorTriangleUnit) uniform usamplerBuffer mirrorTriangles;
-
-const int kMaxReflections = 16;
-const float kMinThroughput = 1e-4;
 
 // The surface that is drawn, as if a ray had hit it.
 TraceHit drawnSurface() {
@@ -17,18 +14,9 @@ TraceHit drawnSurface() {
 }
 
 vec3 mirrorRadiance() {
-    vec3 direction = normalize(position - view.eye.xyz);
-    vec3 seen = vec3(0), throughput = vec3(1);
-    TraceHit hit = drawnSurface();
-    for (int reflections = 0; reflections <= kMaxReflections; ++reflections) {
-        HitSurface s = surfaceAt(hit, direction);
-        if (s.chart == kNoRecord) break;
-        if (reflections > 0) seen += throughput * ownRadiance(s);
-        throughput *= mirrorReflectance(s);
-        if (max(throughput.r, max(throughput.g, throughput.b)) < kMinThroughput) break;
-        direction = mirrorDirection(s, direction);
-        vec3 origin = s.position + view.eye.w * s.geometricNormal;
-        if (reflections == kMaxReflections || !traceClosest(origin, direction, 0, hit)) break;
-    }
-    return seen;
+    TracedPath path = TracedPath(position, normalize(position - view.eye.xyz), vec3(1));
+    HitSurface s = surfaceAt(drawnSurface(), path.direction);
+    if (s.chart == kNoRecord) return vec3(0);
+    reflectPath(s, path);
+    return tracedRadiance(path);
 }

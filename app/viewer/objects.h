@@ -1,0 +1,106 @@
+#pragma once
+// The objects in a walkthrough: what there is, how it moves, which one is held, and what can be
+// done with them. Knows no window.
+
+#include "vlf/dynamic/scenario.h"
+#include "vlf/io/field_file.h"
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace vlf::app {
+
+/// Whom the keys move.
+enum class Subject { camera, object };
+
+/// What the user wants of an object for the next moment.
+struct ObjectSteering {
+    Vec3 push{0};       ///< along its own axes; each in [-1, 1]
+    Vec2 spin{0};       ///< about its own Y and X, counter-clockwise; each in [-1, 1]
+    bool fast = false;  ///< three times as fast
+
+    bool any() const { return push != Vec3(0) || spin != Vec2(0); }
+};
+
+/// Numbers of objects are those of scenario().objects and of the DynamicRoom.
+class Objects {
+  public:
+    /// Told in a few words what has been done.
+    using Say = std::function<void(const std::string&)>;
+
+    /// `scenario` has its models.
+    Objects(Scenario scenario, ModelLibrary library, Say say);
+
+    /// They are now in this room, whose `rays` must live until they enter another; `light`, in
+    /// place of the room's own, may be null.
+    void enter(std::shared_ptr<const BakedRoom> room, const RayScene& rays,
+               std::shared_ptr<const IrradianceAtlas> light);
+    /// The room's light is another one, of the same charts.
+    void setLight(std::shared_ptr<const IrradianceAtlas> light);
+
+    /// Moves what moves by itself to where it is at a time, s, and finds the light as it is seen
+    /// from `eye`. Returns whether anything has changed.
+    bool update(double seconds, const Vec3& eye);
+
+    /// Null as long as there has been no object.
+    const DynamicRoom* room() const { return dynamic_.get(); }
+    const Scenario& scenario() const { return scenario_; }
+    std::size_t size() const { return scenario_.objects.size(); }
+    /// As it is now.
+    const DynamicObject& now(std::size_t i) const { return dynamic_->object(i); }
+    /// A number that no other object ever has.
+    std::uint64_t id(std::size_t i) const { return ids_[i]; }
+
+    Subject subject() const { return subject_; }
+    void toggleSubject();
+    std::optional<std::size_t> selected() const { return selected_; }
+    void select(std::optional<std::size_t> i);
+    void selectNext();
+    bool playing() const { return playing_; }
+    void setPlaying(bool on);
+
+    /// Moves the selected object for some seconds; its motion, if it has one, ends.
+    void steer(const ObjectSteering& steering, float seconds);
+    /// The first object along a ray that the room does not hide.
+    std::optional<std::size_t> pick(const Ray& ray) const;
+    /// A place for an object of some radius, metres, seen along a ray.
+    Vec3 placeAlong(const Ray& ray, float radius) const;
+
+    /// Adds the object, under a name of its own, and selects it. Throws as ModelLibrary::model.
+    void add(ScenarioObject object);
+    void duplicate(std::size_t i);
+    void remove(std::size_t i);
+    void setPose(std::size_t i, const Pose& pose);  ///< its motion, if it has one, ends
+    void setVisible(std::size_t i, bool visible);
+    void setSettings(std::size_t i, const ObjectSettings& settings);
+    void setName(std::size_t i, const std::string& name) {
+        scenario_.objects[i].object.name = name;
+    }
+    /// Throws as ModelLibrary::model; the object is then as it was.
+    void setSource(std::size_t i, const ObjectSource& source);
+
+  private:
+    void build();
+    void insert(ScenarioObject object);
+
+    Scenario scenario_;
+    ModelLibrary library_;
+    Say say_;
+    std::shared_ptr<const BakedRoom> room_;
+    const RayScene* rays_ = nullptr;
+    std::shared_ptr<const IrradianceAtlas> light_;
+    std::unique_ptr<DynamicRoom> dynamic_;
+    std::vector<std::uint64_t> ids_;
+    std::uint64_t lastId_ = 0;
+    Subject subject_ = Subject::camera;
+    std::optional<std::size_t> selected_;
+    bool playing_ = true;
+    double playedSeconds_ = 0, pausedSeconds_ = 0;
+};
+
+}  // namespace vlf::app
