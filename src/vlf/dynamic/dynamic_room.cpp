@@ -1,6 +1,7 @@
 #include "vlf/dynamic/dynamic_room.h"
 
 #include "vlf/base/error.h"
+#include "vlf/base/parallel.h"
 #include "vlf/dynamic/change_bounce.h"
 #include "vlf/dynamic/object_light.h"
 #include "vlf/dynamic/room_change.h"
@@ -14,8 +15,9 @@ namespace vlf {
 namespace {
 
 constexpr int kMaxLines = 513;
-constexpr int kRounds = 2;
-constexpr int kShadowSamples = 4;  // for each of an object's own
+constexpr int kRounds = 1;              // of light between room and objects, beyond the first
+constexpr float kLeastAmbient = 5e-4f;  // of the room's mean irradiance
+constexpr int kShadowSamples = 4;       // for each of an object's own
 
 void check(const DynamicObject& object) {
     if (!object.model) throw InputError("an object needs a model");
@@ -55,7 +57,8 @@ struct DynamicRoom::Impl {
           field(f),
           room(makeRoomTexels(s, r, f)),
           change(room),
-          coverage(room) {
+          coverage(room),
+          incident(s, r, room) {
         setRoomLight(f.atlas);
     }
 
@@ -67,6 +70,7 @@ struct DynamicRoom::Impl {
             roomRadiance[t] = room.reflectance[t] * atlas.irradiance[t] / kPi;
         radiance = roomRadiance;
         mean = meanIrradiance(room, atlas);
+        pointsKnown = false;
         ++lightVersion;
     }
 
@@ -99,11 +103,13 @@ struct DynamicRoom::Impl {
     }
 
     Surroundings surroundings() const {
-        return {scene, roomRays, room, roomRadiance, radiance, rays, lit, coverage, mean};
+        return {scene, roomRays, room,     roomRadiance, radiance, rays,
+                lit,   coverage, incident, points,       mean};
     }
 
     /// Light goes back and forth between room and objects.
     void exchange() {
+        findPointLights();
         change.clear();
         change.apply(room, roomLight, light, radiance);
         const Surroundings around = surroundings();
@@ -118,19 +124,55 @@ struct DynamicRoom::Impl {
         for (std::size_t i = 0; i < loss.entries.size(); ++i)
             if (loss.loss[i] != Vec3(0))
                 shadows.push_back({room.unwrap.texels[loss.entries[i]], -loss.loss[i]});
+        const bool indirect = std::any_of(numbers.begin(), numbers.end(), [&](std::size_t i) {
+            return entries[i].light->changesRoom();
+        });
+        bounce.clear();
+        changeRoom(!indirect && !shadows.empty());
+        findObjectLight(around);
+        if (!indirect) return;
         for (int round = 0; round < kRounds; ++round) {
-            change.clear();
-            for (const TexelChange& t : shadows) change.add(t.texel, t.irradiance);
-            for (std::uint32_t i = 0; i < lit.size(); ++i) {
-                ObjectLight& onObject = *entries[numbers[i]].light;
-                onObject.find(entries[numbers[i]].object, around);
-                onObject.addChange(change.change, change.touched, change.texels);
-            }
-            if (round + 1 == kRounds && !shadows.empty())
-                bounce.add(shadows, scene, roomRays, room, coverage, {&rays, lit, kNoObject}, {},
-                           change);
-            change.apply(room, roomLight, light, radiance);
+            changeRoom(round == 0);
+            findObjectLight(around);
         }
+        changeRoom(false);
+    }
+
+    /// The room's light with shadows and what the objects change, `bouncing` anew.
+    void changeRoom(bool bouncing) {
+        change.clear();
+        for (const TexelChange& t : shadows) change.add(t.texel, t.irradiance);
+        for (const std::size_t i : numbers)
+            entries[i].light->addChange(change.change, change.touched, change.texels);
+        if (bouncing) bounce.find(change, scene, roomRays, room, coverage, {&rays, lit, kNoObject});
+        bounce.addTo(change, room, coverage, kLeastAmbient * luminance(mean));
+        change.apply(room, roomLight, light, radiance);
+    }
+
+    void findObjectLight(const Surroundings& around) {
+        // Those of precomputed transfer are many and quick, the others use all threads themselves.
+        parallelFor(numbers.size(), [&](std::size_t k) {
+            const Entry& entry = entries[numbers[k]];
+            if (entry.object.settings.shading == Shading::prt)
+                entry.light->find(entry.object, around);
+        });
+        for (const std::size_t i : numbers)
+            if (entries[i].object.settings.shading != Shading::prt)
+                entries[i].light->find(entries[i].object, around);
+    }
+
+    /// What hard shadows and the shading `lights` need, once.
+    void findPointLights() {
+        const bool needed = std::any_of(numbers.begin(), numbers.end(), [&](std::size_t i) {
+            const ObjectSettings& s = entries[i].object.settings;
+            return s.shading == Shading::lights || s.shadow == ShadowKind::hard;
+        });
+        if (needed && !std::exchange(pointsKnown, true))
+            points = estimatePointLights(scene, roomRays, room, roomLight);
+    }
+
+    /// Ends an update: what there is to be drawn.
+    void publish() {
         coverage.fill(room, light);
         for (std::size_t i = 0; i < lit.size(); ++i) lit[i] = entries[numbers[i]].light->lit();
         ++lightVersion;
@@ -163,7 +205,9 @@ struct DynamicRoom::Impl {
     std::vector<TexelChange> shadows;
     ChangeBounce bounce;
     std::vector<Sphere> allSpheres;  ///< around the lit objects
+    IncidentLightFinder incident;
     PointLighting points;
+    bool pointsKnown = false;
     bool changed = false;
 };
 DynamicRoom::DynamicRoom(const Scene& scene, const RayScene& rays, const LightField& field)
@@ -230,6 +274,7 @@ bool DynamicRoom::update() {
     if (!std::exchange(impl_->changed, false)) return false;
     impl_->place();
     impl_->exchange();
+    impl_->publish();
     return true;
 }
 

@@ -51,10 +51,11 @@ void ObjectLight::prepare(const DynamicObject& object, ObjectPlans& plans, int l
 
 void ObjectLight::look(const DynamicObject& object, const Surroundings& around, std::uint32_t own) {
     lit_.pose = object.pose;
+    number_ = own;
     const SightObjects objects{&around.instances, around.lit, own};
     std::fill(irradiance_.begin(), irradiance_.end(), Vec3(0));
-    std::fill(own_.begin(), own_.end(), Vec3(0));
-    if (plan_->gathers) {
+    std::fill(radiance_.begin(), radiance_.end(), Vec3(0));
+    if (plan_->shading == Shading::gather) {
         sights_.trace(plan_->gather, object.pose, around.scene, around.rays, around.room, objects,
                       around.coverage, object.settings.gather.emittersByDirections);
         if (object.settings.gather.emittersByDirections)
@@ -87,15 +88,33 @@ void ObjectLight::findDirect(const DynamicObject& object, const Surroundings& ar
 }
 
 void ObjectLight::find(const DynamicObject& object, const Surroundings& around) {
-    const ObjectReceivers& receivers = *plan_->receivers;
-    if (object.settings.shading == Shading::gather) {
-        own_ = irradiance_;
-        irradiance_ = direct_;
-        sights_.gather(plan_->gather, receivers, around.radiance, around.lit, own_, irradiance_);
-    } else {
-        std::fill(irradiance_.begin(), irradiance_.end(), around.meanIrradiance);
+    switch (plan_->shading) {
+        case Shading::flat:
+            std::fill(irradiance_.begin(), irradiance_.end(), around.meanIrradiance);
+            break;
+        case Shading::lights:
+            shadeByLights(around.points, *lit_.mesh, object.pose, around.rays, irradiance_);
+            break;
+        case Shading::gather:
+            own_ = irradiance_;
+            irradiance_ = direct_;
+            sights_.gather(plan_->gather, *plan_->receivers, around.radiance, around.lit, own_,
+                           irradiance_);
+            break;
+        case Shading::prt:
+            findByTransfer(object, around);
+            break;
     }
     publish();
+}
+
+void ObjectLight::findByTransfer(const DynamicObject& object, const Surroundings& around) {
+    if (!scratch_) scratch_ = std::make_unique<IncidentLightFinder::Scratch>(around.incident);
+    const PrtTransfer& transfer = *plan_->transfer;
+    around.incident.find(transfer.box, object.pose, around.radiance,
+                         {&around.instances, around.lit, number_}, *scratch_, incident_);
+    applyTransfer(transfer, incident_, irradiance_);
+    for (std::size_t i = 0; i < transfer.own.size(); ++i) irradiance_[i] += transfer.own[i];
 }
 
 void ObjectLight::publish() {

@@ -2,7 +2,9 @@
 // The light on one object.
 
 #include "vlf/dynamic/delta_transport.h"
+#include "vlf/dynamic/incident_light.h"
 #include "vlf/dynamic/object_plan.h"
+#include "vlf/dynamic/point_lights.h"
 
 #include <memory>
 #include <span>
@@ -20,6 +22,8 @@ struct Surroundings {
     const RayInstances& instances;
     std::span<const LitObject> lit;
     const Coverage& coverage;
+    const IncidentLightFinder& incident;
+    const PointLighting& points;
     Vec3 meanIrradiance{0};
 };
 
@@ -30,11 +34,14 @@ class ObjectLight {
 
     const LitObject& lit() const { return lit_; }
 
-    /// Looks about from the object's pose. `own`: its number among the lit ones.
+    /// Looks about from the object's pose, as number `own` of the lit ones.
     void look(const DynamicObject& object, const Surroundings& around, std::uint32_t own);
 
     /// The light on it, by what the surroundings now send.
     void find(const DynamicObject& object, const Surroundings& around);
+
+    /// Whether it takes from the room's indirect light and gives it back.
+    bool changesRoom() const { return lines_ != nullptr; }
 
     /// Adds how it changes the room's irradiance; see DeltaLines::addTo.
     void addChange(std::span<Vec3> change, std::span<std::uint8_t> touched,
@@ -42,11 +49,15 @@ class ObjectLight {
 
   private:
     void findDirect(const DynamicObject& object, const Surroundings& around);
+    void findByTransfer(const DynamicObject& object, const Surroundings& around);
     void publish();
 
     std::shared_ptr<const ObjectPlan> plan_;
     std::shared_ptr<const LinesPlan> lines_;
+    std::uint32_t number_ = kNoObject;  ///< among the lit ones
     GatherSights sights_;
+    IncidentLight incident_;
+    std::unique_ptr<IncidentLightFinder::Scratch> scratch_;
     DeltaLines delta_;
     std::vector<Vec3> direct_, own_, irradiance_, radiance_;  ///< by receiver
     IrradianceAtlas atlas_;

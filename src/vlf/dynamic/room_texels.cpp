@@ -34,6 +34,7 @@ void groupTexels(const Scene& scene, RoomTexels& room) {
         const std::uint64_t square = std::uint64_t{y / kGroupSide} << 16 | x / kGroupSide;
         keyed.emplace_back(std::uint64_t{unwrap.texelChart[i]} << 32 | square, i);
     }
+    room.groupOf.assign(unwrap.atlasSize(), 0);
     std::stable_sort(keyed.begin(), keyed.end(),
                      [](const auto& a, const auto& b) { return a.first < b.first; });
     for (std::size_t begin = 0, end = 0; begin < keyed.size(); begin = end) {
@@ -41,7 +42,10 @@ void groupTexels(const Scene& scene, RoomTexels& room) {
         group.first = static_cast<std::uint32_t>(begin);
         Bounds bounds;
         for (; end < keyed.size() && keyed[end].first == keyed[begin].first; ++end) {
+            const std::uint32_t texel = unwrap.texels[keyed[end].second];
             room.grouped.push_back(keyed[end].second);
+            room.groupOf[texel] = static_cast<std::uint32_t>(room.groups.size());
+            group.area += room.area[texel];
             for (const SurfacePoint& p : unwrap.points.of(keyed[end].second))
                 bounds.add(positionAt(scene, p.triangle, p.barycentric));
         }
@@ -85,6 +89,11 @@ RoomTexels makeRoomTexels(const Scene& scene, const RayScene& rays, const LightF
         spreadOverChart(unwrap.charts[c], unwrap.atlasWidth, kNoTexel, room.source);
     });
     groupTexels(scene, room);
+    for (const std::uint32_t t : unwrap.texels) {
+        room.meanReflectance += room.area[t] * room.reflectance[t];
+        room.totalArea += room.area[t];
+    }
+    if (room.totalArea > 0) room.meanReflectance /= room.totalArea;
     return room;
 }
 

@@ -24,6 +24,7 @@ struct RoomTriangle {
 /// Covered texels that lie together.
 struct TexelGroup {
     Sphere bounds;                       ///< of their surface
+    float area = 0;                      ///< m²
     std::uint32_t first = 0, count = 0;  ///< in RoomTexels::grouped
 };
 
@@ -40,6 +41,9 @@ struct RoomTexels {
     std::vector<RoomTriangle> triangles;
     std::vector<TexelGroup> groups;
     std::vector<std::uint32_t> grouped;  ///< entries of unwrap.texels
+    std::vector<std::uint32_t> groupOf;  ///< of covered texels
+    Vec3 meanReflectance{0};             ///< diffuse, over all area
+    float totalArea = 0;                 ///< m²
     std::vector<std::uint32_t> entryOf;  ///< of unwrap.texels, of covered texels
 };
 
