@@ -78,6 +78,7 @@ struct Options {
     std::string scene = "cornell", preset = "standard", sheets, json;
     std::vector<std::string> only;  ///< colours; empty: all
     int placement = 0;              ///< from 1; 0: all
+    int samples = 16;  ///< shadow rays per texel of both bakes: their noise is not the method's
     int width = 320, height = 240;
 };
 
@@ -92,6 +93,7 @@ class PlacementTable {
         Progress progress;
         BakeParams params = presetParams(options.preset);
         params.radianceDirections = 0;
+        params.directSamples = options.samples;
         field_ = bake(scene_, params, progress);
     }
 
@@ -149,10 +151,10 @@ class PlacementTable {
         Progress progress;
         BakeParams params = paramsOf(field_.record);
         const RebakedRoom rebaked = rebake(room, params, progress);
-        StillParams params3d = still(room.object(0).pose.translation, placement.eye);
+        StillParams shown = still(room.object(0).pose.translation, placement.eye);
         const Image truth =
-            renderStill(rebaked.scene, RayScene(rebaked.scene), rebaked.field, params3d, progress);
-        params3d.objects = &room;
+            renderStill(rebaked.scene, RayScene(rebaked.scene), rebaked.field, shown, progress);
+        shown.objects = &room;
         for (const Method& method : kMethods) {
             for (std::size_t i = 0; i < room.size(); ++i) {
                 ObjectSettings settings = room.object(i).settings;
@@ -160,9 +162,9 @@ class PlacementTable {
                 room.setSettings(i, settings);
             }
             room.update();
-            const Image picture = renderStill(scene_, rays_, field_, params3d, progress);
+            const Image picture = renderStill(scene_, rays_, field_, shown, progress);
             const std::string name = std::to_string(number) + "-" + colour.name + "-" + method.name;
-            const Result result = judge(room, rebaked.field, params3d.camera, picture, truth, name);
+            const Result result = judge(room, rebaked.field, shown.camera, picture, truth, name);
             std::printf("%-28s %-6s %-13s %8.2f %8.2f %8.4f %9.1f %8.3f\n", placement.name,
                         colour.name, method.name, 100 * result.meanFace, 100 * result.worstFace,
                         result.flip, 100 * result.change, 100 * result.room);
@@ -183,14 +185,15 @@ class PlacementTable {
     Result judge(const DynamicRoom& room, const LightField& rebaked, const Camera& camera,
                  const Image& picture, const Image& truth, const std::string& name) const {
         const float exposure = autoExposure(truth);
-        const Image shown = toneMap(picture, exposure, ToneCurve::filmic),
-                    shownTruth = toneMap(truth, exposure, ToneCurve::filmic);
-        const FlipResult difference = flip(shown, shownTruth);
+        const Image mapped = toneMap(picture, exposure, ToneCurve::filmic),
+                    mappedTruth = toneMap(truth, exposure, ToneCurve::filmic);
+        const FlipResult difference = flip(mapped, mappedTruth);
         if (!options_.sheets.empty()) {
             ContactSheetLayout layout;
             layout.columns = 3, layout.cellWidth = picture.width;
             const std::vector<Image> cells{
-                shown, shownTruth, heatMap(difference.error, picture.width, picture.height, 0.5f)};
+                mapped, mappedTruth,
+                heatMap(difference.error, picture.width, picture.height, 0.5f)};
             writePng(options_.sheets + "/" + name + ".png", contactSheet(cells, layout));
         }
         Result result;
@@ -236,6 +239,8 @@ int main(int argc, char** argv) {
     app.add_option("--preset", options.preset);
     app.add_option("--cube", options.only, "white, red, green [all]");
     app.add_option("--place", options.placement, "Its number [all]")->check(CLI::Range(1, 8));
+    app.add_option("--samples", options.samples, "Shadow rays per texel of the bakes [16]")
+        ->check(CLI::Range(1, 1024));
     app.add_option("--sheets", options.sheets, "Folder for sheets: dynamic, truth, FLIP");
     app.add_option("--json", options.json);
     CLI11_PARSE(app, argc, argv);

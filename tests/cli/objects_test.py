@@ -11,7 +11,8 @@ import unittest
 
 from case import BAD_INPUT, INTERRUPTED, PROGRAM, USAGE, Case
 
-SMALL = ["--size", "80x60", "--antialias", "1"]
+SMALL = ["--size", "80x60"]
+NEAR = ["--eye", "2.5,2,-1", "--look", "3.6,0.4,1.2"]
 CUBE = "cube:0.8:red@3.6,0.4,1.2"
 TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
 
@@ -39,8 +40,8 @@ class Render(Case):
 
     def test_both_backends_draw_the_same_objects(self):
         for backend in ["cpu", "gl"]:
-            self.picture("--object", CUBE, "--mode", "field", "--backend", backend, "--antialias",
-                         "4", output=f"{backend}.exr")
+            self.picture("--object", CUBE, "--mode", "field", "--backend", backend,
+                         output=f"{backend}.exr")
         self.assertLess(self.difference("gl.exr", "cpu.exr"), 0.03)
 
     def test_stills_show_a_moment_of_the_scenario(self):
@@ -81,8 +82,8 @@ class CompareDynamic(Case):
         self.bake("room.vlf")
 
     def compare(self, *options, **expected):
-        return self.run_vlf("compare-dynamic", "room.vlf", "--object", CUBE, *SMALL, *options,
-                            **expected)
+        return self.run_vlf("compare-dynamic", "room.vlf", "--object", CUBE, *SMALL, *NEAR,
+                            *options, **expected)
 
     def test_reports_faces_and_texels_and_writes_a_sheet(self):
         self.compare("-o", "sheet.png", "--json", "r.json", says=["FLIP", "face", "of the change"])
