@@ -23,7 +23,7 @@ float size(const Vec3& flux) {
 
 Vec3 fluxOf(const RoomChange& change, std::uint32_t texel, const RoomTexels& room,
             const Coverage& coverage) {
-    return room.reflectance[texel] * change.change[texel] *
+    return room.reflectance[texel] * change.of(texel) *
            (room.area[texel] * coverage.uncovered(texel));
 }
 
@@ -34,11 +34,11 @@ void ChangeBounce::aim(const RoomChange& change, const Scene& scene, float epsil
                        const RoomTexels& room, const Coverage& coverage, int rays) {
     rays_.clear(), carried_.clear();
     double all = 0;
-    for (const std::uint32_t t : change.texels) all += size(fluxOf(change, t, room, coverage));
+    for (const std::uint32_t t : change.texels()) all += size(fluxOf(change, t, room, coverage));
     const double portion = all / rays;
     if (portion <= 0) return;
     double passed = 0.5 * portion;
-    for (const std::uint32_t t : change.texels) {
+    for (const std::uint32_t t : change.texels()) {
         const Vec3 flux = fluxOf(change, t, room, coverage);
         passed += size(flux);
         const auto count = static_cast<int>(passed / portion);

@@ -11,8 +11,6 @@ namespace vlf {
 
 namespace {
 
-constexpr std::uint32_t kGroupSide = 8;
-
 /// Mean diffuse reflectance over a texel's points.
 Vec3 meanReflectance(const Scene& scene, std::span<const SurfacePoint> points) {
     const Material& material = scene.material(points[0].triangle);
@@ -23,7 +21,7 @@ Vec3 meanReflectance(const Scene& scene, std::span<const SurfacePoint> points) {
     return sum / static_cast<float>(points.size());
 }
 
-/// Squares of kGroupSide² texels of a chart.
+/// Squares of RoomTexels::kGroupSide² texels of a chart.
 void groupTexels(const Scene& scene, RoomTexels& room) {
     const Unwrap& unwrap = room.unwrap;
     std::vector<std::pair<std::uint64_t, std::uint32_t>> keyed;
@@ -31,7 +29,8 @@ void groupTexels(const Scene& scene, RoomTexels& room) {
         const Chart& chart = unwrap.charts[unwrap.texelChart[i]];
         const std::uint32_t x = unwrap.texels[i] % unwrap.atlasWidth - chart.x;
         const std::uint32_t y = unwrap.texels[i] / unwrap.atlasWidth - chart.y;
-        const std::uint64_t square = std::uint64_t{y / kGroupSide} << 16 | x / kGroupSide;
+        const std::uint64_t square =
+            std::uint64_t{y / RoomTexels::kGroupSide} << 16 | x / RoomTexels::kGroupSide;
         keyed.emplace_back(std::uint64_t{unwrap.texelChart[i]} << 32 | square, i);
     }
     room.groupOf.assign(unwrap.atlasSize(), 0);

@@ -30,6 +30,8 @@ struct TexelGroup {
 
 /// What does not change while objects move. Arrays are by atlas texel.
 struct RoomTexels {
+    static constexpr int kGroupSide = 8;  ///< texels along a group's side, at most
+
     Unwrap unwrap;
     LightSources sources;
     FieldFrame frame;
