@@ -151,7 +151,7 @@ struct Mean {
 };
 
 /// What comes along a ray from the room or, by diffuse reflection, from the knot.
-Vec3 fieldPath(const Room& room, const ObjectMesh& mesh, const Pose& pose, SightTracer& sights,
+Vec3 fieldPath(const Room& room, const ObjectMesh& mesh, const Pose& pose, SightTracer& tracer,
                Ray ray, RandomStream& random) {
     Vec3 throughput(1);
     for (int bounces = 0; bounces < 20; ++bounces) {
@@ -165,7 +165,10 @@ Vec3 fieldPath(const Room& room, const ObjectMesh& mesh, const Pose& pose, Sight
         ray.direction = frameFromNormal(normal).toWorld(sampleCosineHemisphere(random.next2()));
     }
     Vec3 seen(0);
-    for (const Sight& sight : sights.trace(std::span(&ray, 1)))
+    Sights sights;
+    tracer.trace(std::span(&ray, 1), sights);
+    if (sights.texel[0] != kNoTexel) seen += room.radiance[sights.texel[0]];
+    for (const Sight& sight : sights.others)
         seen += sight.throughput * (diffuseRadiance(sight, room.radiance, {}) + sight.emission);
     return throughput * seen;
 }

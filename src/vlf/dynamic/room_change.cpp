@@ -5,8 +5,8 @@
 namespace vlf {
 
 RoomChange::RoomChange(const RoomTexels& room)
-    : change(room.source.size(), Vec3(0)),
-      touched(room.source.size(), 0),
+    : change_(room.source.size(), Vec3(0)),
+      touched_(room.source.size(), 0),
       firstFollower_(room.source.size() + 1, 0) {
     const auto isFollower = [&](std::uint32_t t) {
         return room.source[t] != kNoTexel && room.source[t] != t;
@@ -21,15 +21,8 @@ RoomChange::RoomChange(const RoomTexels& room)
 }
 
 void RoomChange::clear() {
-    for (const std::uint32_t t : texels) change[t] = Vec3(0), touched[t] = 0;
-    texels.clear();
-}
-
-void RoomChange::add(std::uint32_t texel, const Vec3& irradiance) {
-    change[texel] += irradiance;
-    if (touched[texel]) return;
-    touched[texel] = 1;
-    texels.push_back(texel);
+    for (const std::uint32_t t : texels_) change_[t] = Vec3(0), touched_[t] = 0;
+    texels_.clear();
 }
 
 void RoomChange::set(const RoomTexels& room, std::uint32_t texel, const Vec3& by,
@@ -46,9 +39,9 @@ void RoomChange::set(const RoomTexels& room, std::uint32_t texel, const Vec3& by
 void RoomChange::apply(const RoomTexels& room, const IrradianceAtlas& own, IrradianceAtlas& light,
                        std::vector<Vec3>& radiance) {
     for (const std::uint32_t t : written_)
-        if (!touched[t]) set(room, t, Vec3(0), own, light, radiance);
-    for (const std::uint32_t t : texels) set(room, t, change[t], own, light, radiance);
-    written_.assign(texels.begin(), texels.end());
+        if (!touched_[t]) set(room, t, Vec3(0), own, light, radiance);
+    for (const std::uint32_t t : texels_) set(room, t, change_[t], own, light, radiance);
+    written_.assign(texels_.begin(), texels_.end());
 }
 
 }  // namespace vlf

@@ -17,12 +17,16 @@ class RoomChange {
     /// Nothing has changed.
     void clear();
 
-    void add(std::uint32_t texel, const Vec3& irradiance);
+    void add(std::uint32_t texel, const Vec3& irradiance) {
+        change_[texel] += irradiance;
+        if (touched_[texel]) return;
+        touched_[texel] = 1;
+        texels_.push_back(texel);
+    }
 
-    /// For whoever adds many: the change by atlas texel, which of them there are, and their list.
-    std::vector<Vec3> change;
-    std::vector<std::uint8_t> touched;
-    std::vector<std::uint32_t> texels;
+    /// The texels that were added to, and by atlas texel how much.
+    std::span<const std::uint32_t> texels() const { return texels_; }
+    const Vec3& of(std::uint32_t texel) const { return change_[texel]; }
 
     /// Writes irradiance with the change into `light`, texels that no surface covers along with the
     /// covered ones they continue, and the radiance it makes the texels send. What was written
@@ -35,7 +39,9 @@ class RoomChange {
     void set(const RoomTexels& room, std::uint32_t texel, const Vec3& change,
              const IrradianceAtlas& own, IrradianceAtlas& light, std::vector<Vec3>& radiance) const;
 
-    std::vector<std::uint32_t> written_;
+    std::vector<Vec3> change_;
+    std::vector<std::uint8_t> touched_;
+    std::vector<std::uint32_t> texels_, written_;
     std::vector<std::uint32_t> firstFollower_, followers_;  ///< by covered texel
 };
 
