@@ -2,7 +2,6 @@
 
 #include "gpu_options.h"
 
-#include "vlf/base/error.h"
 #include "vlf/render/gl/still.h"
 
 namespace vlf::app {
@@ -10,11 +9,8 @@ namespace vlf::app {
 RoomRenderer::RoomRenderer(const RenderOptions& options, const BakedRoom& room,
                            const Globals& globals)
     : room_(room) {
-    if (options.backend == Backend::gl && options.objects.any())
-        throw InputError("--object and --scenario: OpenGL draws no objects; use --backend cpu");
-    if (options.backend == Backend::cpu) {
-        rays_.emplace(room.scene);
-    } else {
+    if (options.backend == Backend::cpu || options.objects.any()) rays_.emplace(room.scene);
+    if (options.backend == Backend::gl) {
         context_.emplace();
         renderer_.emplace(room.scene, room.field, options.gpu);
         printNotices(globals.quiet, *renderer_);
@@ -33,9 +29,9 @@ void RoomRenderer::moveTo(double seconds) {
 }
 
 Image RoomRenderer::render(const StillParams& params, Progress& progress, StillReport& report) {
-    if (renderer_) return renderStill(*renderer_, params, progress, &report);
     StillParams withObjects = params;
     withObjects.objects = objects_ ? &*objects_ : nullptr;
+    if (renderer_) return renderStill(*renderer_, withObjects, progress, &report);
     return renderStill(room_.scene, *rays_, room_.field, withObjects, progress, &report);
 }
 

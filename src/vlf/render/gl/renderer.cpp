@@ -176,8 +176,9 @@ struct Renderer::Impl {
     }
 
     void updateObjects(const DynamicRoom& room) {
+        if (roomVersion == room.irradianceVersion()) return;
         objects.update(room);
-        if (room.irradianceVersion() != roomVersion) atlas.update(room.irradiance());
+        atlas.update(room.irradiance());
         roomVersion = room.irradianceVersion();
         memory.hits = objects.hits().bytes();
         memory.objects = objects.bytes();
@@ -358,7 +359,7 @@ struct Renderer::Impl {
     std::optional<RadianceBuffers> radiance;
     std::vector<std::uint32_t> mirrorTriangles;
     ObjectStage objects;
-    std::uint64_t roomVersion = 0;     ///< of the DynamicRoom's irradiance
+    std::optional<std::uint64_t> roomVersion;  ///< of the DynamicRoom that is shown
     std::optional<Drawings> drawings;  ///< once one is drawn
     ViewData viewData{};
     GpuMemory memory;
