@@ -29,9 +29,9 @@ void RoomRenderer::moveTo(double seconds) {
 }
 
 Image RoomRenderer::render(const StillParams& params, Progress& progress, StillReport& report) {
-    if (renderer_) return renderStill(*renderer_, params, progress, &report);
     StillParams withObjects = params;
     withObjects.objects = objects_ ? &*objects_ : nullptr;
+    if (renderer_) return renderStill(*renderer_, withObjects, progress, &report);
     return renderStill(room_.scene, *rays_, room_.field, withObjects, progress, &report);
 }
 
