@@ -12,6 +12,7 @@
 #include "viewer/viewer.h"
 
 #include "vlf/base/error.h"
+#include "vlf/display/camera_path_file.h"
 #include "vlf/display/preferences.h"
 #include "vlf/io/field_file.h"
 #include "vlf/live/live_bake.h"
@@ -39,6 +40,7 @@ struct Options {
     CameraOptions camera;
     ObjectOptions objects;
     ViewerOptions viewer;
+    std::string replay;  ///< file of a path to follow; empty: none
     std::string mode;
     bool fresh = false;
     bool noVsync = false;
@@ -60,6 +62,20 @@ bool isField(const std::string& file) {
     return std::filesystem::path(file).extension() == ".vlf";
 }
 
+/// The path has the objects, or the options have.
+void follow(const std::string& path, const Globals& globals, ViewerOptions& viewer) {
+    std::vector<std::string> warnings;
+    Walk walk = readWalk(path, viewer.models, warnings);
+    for (const std::string& warning : warnings) printWarning(globals.quiet, warning);
+    viewer.session.replay = std::move(walk.camera);
+    if (walk.objects.objects.empty()) return;
+    if (!viewer.objects.objects.empty())
+        throw InputError(path +
+                         ": holds objects of its own; leave out --object and --scenario, or follow "
+                         "a path without \"objects\"");
+    viewer.objects = std::move(walk.objects);
+}
+
 ViewerOptions viewerOptions(const Options& options, const Globals& globals, const Scene& scene) {
     ViewerOptions viewer = options.viewer;
     viewer.file = options.files.front();
@@ -73,6 +89,7 @@ ViewerOptions viewerOptions(const Options& options, const Globals& globals, cons
     viewer.verbose = globals.verbose;
     viewer.objects = readObjects(options.objects, scene, viewer.models, globals);
     viewer.object = options.objects.defaults;
+    if (!options.replay.empty()) follow(options.replay, globals, viewer);
     return viewer;
 }
 
@@ -168,11 +185,11 @@ void addWindowOptions(CLI::App& command, Options& options) {
         ->type_name("DIR");
 }
 
-void addSessionOptions(CLI::App& command, SessionOptions& session) {
+void addSessionOptions(CLI::App& command, SessionOptions& session, std::string& path) {
     CLI::Option_group* group = command.add_option_group("Session", "Writing down and replaying");
     group->add_option("--record", session.record, "Write the path of camera and objects (.json)")
         ->type_name("PATH");
-    CLI::Option* replay = group->add_option("--replay", session.replay, "Follow such a path")
+    CLI::Option* replay = group->add_option("--replay", path, "Follow such a path")
                               ->check(CLI::ExistingFile)
                               ->type_name("PATH");
     group->add_flag("--loop", session.loop, "Begin the replay again when it ends")->needs(replay);
@@ -208,7 +225,7 @@ void addView(CLI::App& app, const Globals& globals) {
     command->add_option("--mode", options->mode, "What to show first; M shows the next")
         ->check(CLI::IsMember(modeNames()))
         ->capture_default_str();
-    addSessionOptions(*command, options->viewer.session);
+    addSessionOptions(*command, options->viewer.session, options->replay);
     const CLI::Option* output =
         command
             ->add_option("-o,--output", options->viewer.output,

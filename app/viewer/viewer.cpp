@@ -70,16 +70,6 @@ bool held(const Window& window, const Binding& binding) {
                        [&](Key key) { return window.held(key); });
 }
 
-/// Of the path that is followed, or else those of the options.
-Scenario objectsToShow(const ViewerOptions& options, const Session& session) {
-    if (session.objects().objects.empty()) return options.objects;
-    if (!options.objects.objects.empty())
-        throw InputError(options.session.replay +
-                         " holds objects of its own: leave out --object and --scenario, or delete "
-                         "\"objects\" from it and make its \"version\" 1");
-    return session.objects();
-}
-
 bool matches(const Binding& binding, const KeyPress& press) {
     return binding.press && binding.control.value_or(press.control) == press.control &&
            binding.shift.value_or(press.shift) == press.shift &&
@@ -97,8 +87,7 @@ Viewer::Viewer(std::shared_ptr<const BakedRoom> room, const ViewerOptions& optio
       shownRoom_(std::make_unique<ShownRoom>(room, options.renderer)),
       walk_(room, options.start, [this](const std::string& text) { say(text); }),
       session_(options.session),
-      objects_(objectsToShow(options, session_), options.models,
-               [this](const std::string& text) { say(text); }),
+      objects_(options.objects, options.models, [this](const std::string& text) { say(text); }),
       pointer_(objects_),
       shaderWatch_(options.renderer.shaderFolder) {
     RoomPreferences here = memory_.room();
