@@ -42,8 +42,12 @@ CLI::Option_group* addQualityOptions(CLI::App& command, QualityOptions& o) {
 }
 
 BakeParams bakeParams(const QualityOptions& o, const Globals& globals) {
-    BakeParams p = presetParams(o.preset);
+    BakeParams p = withSettings(o, presetParams(o.preset));
     p.seed = globals.seed;
+    return p;
+}
+
+BakeParams withSettings(const QualityOptions& o, BakeParams p) {
     if (o.directions > 0) p.directions = o.directions;
     if (o.cells > 0) p.cells = o.cells;
     if (o.tile > 0) p.tileSize = o.tile;

@@ -24,4 +24,7 @@ CLI::Option_group* addQualityOptions(CLI::App& command, QualityOptions& options)
 
 BakeParams bakeParams(const QualityOptions& options, const Globals& globals);
 
+/// The parameters with the single settings that are given in place of theirs.
+BakeParams withSettings(const QualityOptions& options, BakeParams params);
+
 }  // namespace vlf::app

@@ -21,6 +21,7 @@ void addInfo(CLI::App& app, const Globals& globals);
 void addRender(CLI::App& app, const Globals& globals);
 void addReference(CLI::App& app, const Globals& globals);
 void addCompare(CLI::App& app, const Globals& globals);
+void addCompareDynamic(CLI::App& app, const Globals& globals);
 void addScene(CLI::App& app, const Globals& globals);
 void addView(CLI::App& app, const Globals& globals);
 void addSheet(CLI::App& app, const Globals& globals);

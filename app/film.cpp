@@ -84,7 +84,9 @@ class FilmMaker {
         constexpr int kPictures = 12, kWidth = 96;
         std::vector<Image> pictures;
         for (int i = 0; i < kPictures; ++i) {
-            StillParams params = still(path_.duration() * i / (kPictures - 1));
+            const double seconds = path_.duration() * i / (kPictures - 1);
+            renderer_.moveTo(seconds);
+            StillParams params = still(seconds);
             params.height = std::clamp(kWidth * params.height / params.width, 1, 4 * kWidth);
             params.width = kWidth;
             params.antialias = 1;
@@ -121,6 +123,7 @@ class FilmMaker {
         FrameRecord record;
         record.pathSeconds = frame / options_.film.fps;
         record.pose = path_.at(record.pathSeconds);
+        renderer_.moveTo(record.pathSeconds);
         StillReport report;
         std::vector<Image> eyes =
             renderEyes(renderer_, still(record.pathSeconds), options_.stereo, progress, report);

@@ -29,6 +29,7 @@ void addCommands(CLI::App& app, const vlf::app::Globals& globals) {
     addView(app, globals);
     addReference(app, globals);
     addCompare(app, globals);
+    addCompareDynamic(app, globals);
     addScene(app, globals);
     addSheet(app, globals);
 }

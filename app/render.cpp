@@ -126,7 +126,7 @@ void run(const CLI::App& command, const RenderOptions& options, const Globals& g
     requireWritableOutputs({options.json});
     if (!options.film.moves()) requireWritableOutputs({options.picture.path});
     const BakedRoom room = readField(options.field);
-    RoomRenderer renderer(options, room, globals.quiet);
+    RoomRenderer renderer(options, room, globals);
     nlohmann::ordered_json report = toJson(options);
     if (options.film.moves()) {
         report["film"] = renderFilm(options, globals, renderer, room.scene.cameras);
@@ -146,22 +146,27 @@ void addRender(CLI::App& app, const Globals& globals) {
     CLI::App* command = app.add_subcommand("render", "Render stills or a film of a baked room");
     addRenderOptions(*command, *options);
     command->footer(
-        "Modes:\n"
-        "  raytraced    diffuse light from the field, mirrors by tracing reflections\n"
-        "  field        diffuse light and mirrors from the field, no reflection traced\n"
-        "  progressive  what that mode of a window comes to at rest: as raytraced\n"
-        "  wireframe    a line drawing; hidden edges faint\n"
-        "  diagram      the structure of the field (--diagram)\n"
-        "--exposure and --tone have no effect on drawings.\n\n"
-        "Stereo:\n"
-        "  side-by-side  both pictures in one, twice as wide\n"
-        "  anaglyph      one picture for red-cyan glasses\n"
-        "  pair          two files, NAME-left and NAME-right\n\n"
-        "Films:\n"
-        "  --path or --tour moves the camera; --film or pictures as -o NAME-%05d.png show it.\n\n"
+        std::string(
+            "Modes:\n"
+            "  raytraced    diffuse light from the field, mirrors by tracing reflections\n"
+            "  field        diffuse light and mirrors from the field, no reflection traced\n"
+            "  progressive  what that mode of a window comes to at rest: as raytraced\n"
+            "  wireframe    a line drawing; hidden edges faint\n"
+            "  diagram      the structure of the field (--diagram)\n"
+            "--exposure and --tone have no effect on drawings.\n\n"
+            "Stereo:\n"
+            "  side-by-side  both pictures in one, twice as wide\n"
+            "  anaglyph      one picture for red-cyan glasses\n"
+            "  pair          two files, NAME-left and NAME-right\n\n"
+            "Films:\n"
+            "  --path or --tour moves the camera; --film or pictures as -o NAME-%05d.png show "
+            "it.\n\n") +
+        objectHelp() +
+        "A film shows the scenario from its beginning, stills its --moment.\n\n"
         "Examples:\n"
         "  vlf render room.vlf --camera front --size 1024x768 -o front.png\n"
         "  vlf render room.vlf --all-cameras -o stills/%.png\n"
+        "  vlf render room.vlf --object cube:0.1:red@1,0.05,2 -o cube.png\n"
         "  vlf render room.vlf --mode diagram --diagram tile -o tile.png\n"
         "  vlf render room.vlf --camera front --stereo anaglyph --convergence 2 -o front.png\n"
         "  vlf render room.vlf --tour --backend gl --mode field --film tour.mp4\n"

@@ -185,6 +185,14 @@ void addRenderOptions(CLI::App& command, RenderOptions& options) {
     command.get_option("--output")->required(false);  // or --film
     addStereoOptions(command, options.stereo);
     addFilmOptions(command, options.film);
+    addObjectOptions(command, options.objects);
+    command.add_option("--moment", options.moment, "Of the scenario, for stills [0]")
+        ->check(numberWithin(0, 86400))
+        ->type_name("SECONDS")
+        ->group("Objects")
+        ->needs("--scenario")
+        ->excludes("--path")
+        ->excludes("--tour");
     command.add_option("--json", options.json, "Write a report to this file");
 }
 

@@ -2,6 +2,7 @@
 // The options of vlf render.
 
 #include "camera_options.h"
+#include "object_options.h"
 #include "picture_output.h"
 
 #include "vlf/display/stereo.h"
@@ -52,6 +53,8 @@ struct RenderOptions {
     PictureOptions picture;
     StereoOptions stereo;
     FilmOptions film;
+    ObjectOptions objects;
+    double moment = 0;  ///< of the scenario, s, that stills show
     std::string json;
     bool allCameras = false;
     std::vector<std::uint32_t> tile;

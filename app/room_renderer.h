@@ -1,8 +1,9 @@
 #pragma once
-// Whoever draws the pictures of a room: the CPU, or OpenGL without a window.
+// Whoever draws the pictures of a room and the objects in it: the CPU, or OpenGL without a window.
 
 #include "render_options.h"
 
+#include "vlf/dynamic/scenario.h"
 #include "vlf/io/field_file.h"
 #include "vlf/render/gl/headless_context.h"
 #include "vlf/render/gl/renderer.h"
@@ -14,8 +15,11 @@ namespace vlf::app {
 
 class RoomRenderer {
   public:
-    /// `room` must outlive it. Throws as Renderer and HeadlessContext.
-    RoomRenderer(const RenderOptions& options, const BakedRoom& room, bool quiet);
+    /// `room` must outlive it. Throws as Renderer, HeadlessContext and readObjects.
+    RoomRenderer(const RenderOptions& options, const BakedRoom& room, const Globals& globals);
+
+    /// Moves the objects to where the scenario has them at a time, s.
+    void moveTo(double seconds);
 
     /// As renderStill.
     Image render(const StillParams& params, Progress& progress, StillReport& report);
@@ -28,6 +32,9 @@ class RoomRenderer {
     std::optional<RayScene> rays_;
     std::optional<gl::HeadlessContext> context_;
     std::optional<Renderer> renderer_;
+    ModelLibrary models_;
+    Scenario scenario_;
+    std::optional<DynamicRoom> objects_;
 };
 
 }  // namespace vlf::app

@@ -112,7 +112,7 @@ void compare(const BakedRoom& baked, const DynamicRoom& room) {
             const Vec3 from = positionAt(baked.scene, q.triangle, q.barycentric);
             covered |= objectRays.closest({from + 1e-4f * n, n, 0, 2e-3f}).triangle != kNoTriangle;
             const Vec3 local = glm::abs(object.pose.inversePoint(from));
-            covered |= maxComponent(local) < 0.5f;
+            covered |= maxComponent(local) < 0.51f;
         }
         if (covered) continue;
         const double a = unwrap.texelArea(i);

@@ -8,6 +8,7 @@
 // is taken out apart (soft_shadow.h); light changed by the object that bounces once more is left
 // out, but for what comes back to the object.
 
+#include "vlf/dynamic/coverage.h"
 #include "vlf/dynamic/object_lines.h"
 #include "vlf/dynamic/sight.h"
 
@@ -24,7 +25,7 @@ class DeltaLines {
     /// What the object lies on is left as it is. Objects other than `objects.own` that stand
     /// between it and a texel keep the texel to themselves.
     void trace(const ObjectLines& lines, const Pose& pose, const Scene& scene, const RayScene& rays,
-               const RoomTexels& room, const SightObjects& objects,
+               const RoomTexels& room, const SightObjects& objects, const Coverage& coverage,
                std::span<const Vec3> texelRadiance);
 
     /// Adds the change of irradiance (W·m⁻²) to `change`, by atlas texel; the texels it changes for
@@ -43,8 +44,6 @@ class DeltaLines {
         Vec3 lost;  ///< radiance
         Vec3 gain;  ///< irradiance per radiance, by the mirrors on the way
     };
-    struct Scratch;
-
     std::vector<std::vector<End>> blocks_;
 };
 

@@ -1,6 +1,7 @@
 #include "vlf/dynamic/dynamic_room.h"
 
 #include "vlf/base/error.h"
+#include "vlf/dynamic/change_bounce.h"
 #include "vlf/dynamic/object_light.h"
 #include "vlf/dynamic/room_change.h"
 #include "vlf/dynamic/soft_shadow.h"
@@ -12,8 +13,9 @@ namespace vlf {
 
 namespace {
 
-constexpr int kMaxLines = 2049;
+constexpr int kMaxLines = 513;
 constexpr int kRounds = 2;
+constexpr int kShadowSamples = 4;  // for each of an object's own
 
 void check(const DynamicObject& object) {
     if (!object.model) throw InputError("an object needs a model");
@@ -48,7 +50,12 @@ struct DynamicRoom::Impl {
     };
 
     Impl(const Scene& s, const RayScene& r, const LightField& f)
-        : scene(s), roomRays(r), field(f), room(makeRoomTexels(s, r, f)), change(room) {
+        : scene(s),
+          roomRays(r),
+          field(f),
+          room(makeRoomTexels(s, r, f)),
+          change(room),
+          coverage(room) {
         setRoomLight(f.atlas);
     }
 
@@ -66,7 +73,7 @@ struct DynamicRoom::Impl {
     /// The visible objects, where they are.
     void place() {
         std::vector<RayInstance> instances;
-        lit.clear(), numbers.clear(), spheres.clear(), casters.clear();
+        lit.clear(), numbers.clear(), spheres.clear(), casters.clear(), allSpheres.clear();
         for (std::size_t i = 0; i < entries.size(); ++i) {
             Entry& entry = entries[i];
             const DynamicObject& object = entry.object;
@@ -79,10 +86,11 @@ struct DynamicRoom::Impl {
             lit.push_back(entry.light->lit());
             lit.back().pose = object.pose;
             instances.push_back({&lit.back().mesh->rays, object.pose});
+            const Sphere& bounds = object.model->bounds();
+            allSpheres.push_back(
+                {object.pose.point(bounds.centre), object.pose.scale * bounds.radius});
             if (castsSoftShadow(object)) {
-                const Sphere& bounds = object.model->bounds();
-                spheres.push_back(
-                    {object.pose.point(bounds.centre), object.pose.scale * bounds.radius});
+                spheres.push_back(allSpheres.back());
                 casters.push_back(instances.back());
             }
         }
@@ -91,30 +99,39 @@ struct DynamicRoom::Impl {
     }
 
     Surroundings surroundings() const {
-        return {scene, roomRays, room, roomRadiance, radiance, rays, lit, mean};
+        return {scene, roomRays, room, roomRadiance, radiance, rays, lit, coverage, mean};
     }
 
     /// Light goes back and forth between room and objects.
     void exchange() {
+        change.clear();
+        change.apply(room, roomLight, light, radiance);
         const Surroundings around = surroundings();
+        coverage.find(scene, roomRays, room, rays, lit, allSpheres);
         for (std::uint32_t i = 0; i < lit.size(); ++i)
             entries[numbers[i]].light->look(entries[numbers[i]].object, around, i);
-        const TexelLoss loss = spheres.empty()
-                                   ? TexelLoss{}
-                                   : findSoftShadows(scene, roomRays, room, spheres,
-                                                     occluderOf(casterRays), shadowSamples());
+        const TexelLoss loss = spheres.empty() ? TexelLoss{}
+                                               : findSoftShadows(scene, roomRays, room, coverage,
+                                                                 spheres, occluderOf(casterRays),
+                                                                 kShadowSamples * shadowSamples());
+        shadows.clear();
+        for (std::size_t i = 0; i < loss.entries.size(); ++i)
+            if (loss.loss[i] != Vec3(0))
+                shadows.push_back({room.unwrap.texels[loss.entries[i]], -loss.loss[i]});
         for (int round = 0; round < kRounds; ++round) {
             change.clear();
-            for (std::size_t i = 0; i < loss.texels.size(); ++i)
-                if (loss.loss[i] != Vec3(0))
-                    change.add(room.unwrap.texels[loss.texels[i]], -loss.loss[i]);
+            for (const TexelChange& t : shadows) change.add(t.texel, t.irradiance);
             for (std::uint32_t i = 0; i < lit.size(); ++i) {
                 ObjectLight& onObject = *entries[numbers[i]].light;
                 onObject.find(entries[numbers[i]].object, around);
                 onObject.addChange(change.change, change.touched, change.texels);
             }
+            if (round + 1 == kRounds && !shadows.empty())
+                bounce.add(shadows, scene, roomRays, room, coverage, {&rays, lit, kNoObject}, {},
+                           change);
             change.apply(room, roomLight, light, radiance);
         }
+        coverage.fill(room, light);
         for (std::size_t i = 0; i < lit.size(); ++i) lit[i] = entries[numbers[i]].light->lit();
         ++lightVersion;
     }
@@ -142,6 +159,10 @@ struct DynamicRoom::Impl {
     std::vector<RayInstance> casters;
     std::vector<Sphere> spheres;  ///< around the casters
     RoomChange change;
+    Coverage coverage;
+    std::vector<TexelChange> shadows;
+    ChangeBounce bounce;
+    std::vector<Sphere> allSpheres;  ///< around the lit objects
     PointLighting points;
     bool changed = false;
 };

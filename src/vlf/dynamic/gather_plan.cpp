@@ -2,11 +2,10 @@
 
 #include "vlf/base/parallel.h"
 #include "vlf/field/direction_set.h"
-#include "vlf/math/frame.h"
 
 #include <algorithm>
-#include <cmath>
-#include <optional>
+#include <map>
+#include <tuple>
 #include <utility>
 
 namespace vlf {
@@ -23,66 +22,66 @@ struct DirectionPart {
     std::vector<std::pair<std::uint32_t, GatherPlan::Entry>> entries;  ///< by receiver
 };
 
-/// The far ends of a grid of lines through the object along one direction.
-class LaunchGrid {
-  public:
-    LaunchGrid(const ObjectMesh& mesh, const Sphere& bounds, const Vec3& direction, float across)
-        : frame_(frameFromNormal(direction)),
-          centre_(bounds.centre),
-          cell_(2 * bounds.radius / across),
-          side_(static_cast<int>(std::ceil(across)) + 2),
-          launchOf_(static_cast<std::size_t>(side_) * side_, kEmpty) {
-        std::vector<Ray> rays;
-        for (int y = 0; y < side_; ++y)
-            for (int x = 0; x < side_; ++x) {
-                const Vec3 p = centre_ + frame_.toWorld({coordinate(x), coordinate(y), 0});
-                rays.push_back({p + 2 * bounds.radius * direction, -direction});
-            }
-        std::vector<Hit> hits(rays.size());
-        mesh.rays.closest(rays, hits);
-        for (std::size_t i = 0; i < rays.size(); ++i) {
-            if (!hits[i]) continue;
-            launchOf_[i] = static_cast<std::uint32_t>(launches.size());
-            launches.push_back(rays[i].origin + hits[i].t * rays[i].direction);
-        }
+/// Patches of receivers that lie close together and face alike: the cluster of each.
+std::vector<std::uint32_t> clusterReceivers(const ObjectReceivers& receivers, float cell) {
+    using Key = std::tuple<int, int, int, int>;
+    std::map<Key, std::uint32_t> clusters;
+    std::vector<std::uint32_t> clusterOf;
+    for (std::uint32_t r = 0; r < receivers.size(); ++r) {
+        const glm::ivec3 at(glm::floor(receivers.position[r] / cell));
+        const Vec3 n = receivers.geometric[r], size = glm::abs(n);
+        const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+        const Key key{at.x, at.y, at.z, 2 * axis + (n[axis] > 0)};
+        clusterOf.push_back(
+            clusters.try_emplace(key, static_cast<std::uint32_t>(clusters.size())).first->second);
     }
+    return clusterOf;
+}
 
-    /// The launch of the grid nearest to p; kEmpty if there is none within about a cell.
-    std::uint32_t nearest(const Vec3& p) const {
-        const Vec3 local = frame_.toLocal(p - centre_) / cell_;
-        const int x = cellOf(local.x), y = cellOf(local.y);
-        std::uint32_t best = kEmpty;
-        float least = 2.5f * cell_ * cell_;
-        for (int j = std::max(0, y - 1); j <= std::min(side_ - 1, y + 1); ++j)
-            for (int i = std::max(0, x - 1); i <= std::min(side_ - 1, x + 1); ++i) {
-                const std::uint32_t launch = launchOf_[static_cast<std::size_t>(j) * side_ + i];
-                if (launch == kEmpty) continue;
-                const Vec3 d = launches[launch] - p;
-                if (const float squared = glm::dot(d, d); squared < least)
-                    least = squared, best = launch;
-            }
-        return best;
+/// The middles of the clusters.
+std::vector<Vec3> middles(const ObjectReceivers& receivers,
+                          const std::vector<std::uint32_t>& clusterOf) {
+    std::vector<Vec4> sums;
+    for (std::size_t r = 0; r < clusterOf.size(); ++r) {
+        if (clusterOf[r] >= sums.size()) sums.resize(clusterOf[r] + 1, Vec4(0));
+        sums[clusterOf[r]] += Vec4(receivers.position[r], 1);
     }
+    std::vector<Vec3> result;
+    for (const Vec4& sum : sums) result.push_back(Vec3(sum) / sum.w);
+    return result;
+}
 
-    static constexpr std::uint32_t kEmpty = 0xffffffffu;
-    std::vector<Vec3> launches;
-
-  private:
-    float coordinate(int i) const { return (i - 0.5f * (side_ - 1)) * cell_; }
-    int cellOf(float x) const { return static_cast<int>(std::lround(x + 0.5f * (side_ - 1))); }
-
-    Frame frame_;
-    Vec3 centre_;
-    float cell_;
-    int side_;
-    std::vector<std::uint32_t> launchOf_;
+struct Clusters {
+    std::vector<std::uint32_t> of;  ///< by receiver; empty: each is by itself
+    std::vector<Vec3> middle;
 };
 
+/// Picks for every cluster the receiver nearest to its middle as the launch of all that see out.
+void launchFromClusters(const ObjectReceivers& receivers, const Clusters& clusters,
+                        const std::vector<std::uint32_t>& open,
+                        std::vector<std::uint32_t>& launchOf, DirectionPart& part) {
+    std::vector<std::uint32_t> best(clusters.middle.size(), ObjectReceivers::kNone);
+    const auto distance = [&](std::uint32_t r) {
+        return glm::distance(receivers.position[r], clusters.middle[clusters.of[r]]);
+    };
+    for (const std::uint32_t r : open) {
+        std::uint32_t& found = best[clusters.of[r]];
+        if (found == ObjectReceivers::kNone || distance(r) < distance(found)) found = r;
+    }
+    std::vector<std::uint32_t> launch(best.size());
+    for (std::size_t c = 0; c < best.size(); ++c) {
+        if (best[c] == ObjectReceivers::kNone) continue;
+        launch[c] = static_cast<std::uint32_t>(part.launches.size());
+        part.launches.push_back(receivers.position[best[c]]);
+    }
+    for (const std::uint32_t r : open) launchOf.push_back(launch[clusters.of[r]]);
+}
+
 /// Finds for one direction which receivers see out along it, and what of the object the others see.
-DirectionPart planDirection(const ObjectReceivers& receivers, const Sphere& bounds,
-                            const Vec3& direction, float weight, float cellsAcross) {
+DirectionPart planDirection(const ObjectReceivers& receivers, const Clusters& clusters,
+                            const Vec3& direction, float weight) {
     const ObjectMesh& mesh = *receivers.mesh;
-    const float epsilon = 4 * mesh.rays.epsilon();
+    const float epsilon = kContact * mesh.rays.epsilon();
     std::vector<std::uint32_t> above;
     std::vector<Ray> rays;
     for (std::uint32_t r = 0; r < receivers.size(); ++r) {
@@ -95,29 +94,29 @@ DirectionPart planDirection(const ObjectReceivers& receivers, const Sphere& boun
     std::vector<Hit> hits(rays.size());
     mesh.rays.closest(rays, hits);
     DirectionPart part;
-    std::optional<LaunchGrid> grid;
-    if (cellsAcross > 0) {
-        grid.emplace(mesh, bounds, direction, cellsAcross);
-        if (2 * grid->launches.size() > above.size()) grid.reset();
-    }
-    if (grid) part.launches = grid->launches;
+    const auto add = [&](std::uint32_t r, std::uint32_t from) {
+        part.entries.emplace_back(
+            r, GatherPlan::Entry{from, weight * glm::dot(receivers.normal[r], direction)});
+    };
+    std::vector<std::uint32_t> open, launchOf;
     for (std::size_t i = 0; i < above.size(); ++i) {
-        const std::uint32_t r = above[i];
-        GatherPlan::Entry entry{0, weight * glm::dot(receivers.normal[r], direction)};
-        if (hits[i]) {
-            const bool front = glm::dot(areaVector(mesh.scene, hits[i].triangle), direction) < 0;
-            const std::uint32_t seen = receivers.at(hits[i].triangle, hits[i].barycentric, front);
-            if (seen == ObjectReceivers::kNone) continue;
-            entry.from = GatherPlan::kSelf | seen;
-        } else {
-            entry.from = grid ? grid->nearest(rays[i].origin) : LaunchGrid::kEmpty;
-            if (entry.from == LaunchGrid::kEmpty) {
-                entry.from = static_cast<std::uint32_t>(part.launches.size());
-                part.launches.push_back(rays[i].origin);
-            }
+        if (!hits[i]) {
+            open.push_back(above[i]);
+            continue;
         }
-        part.entries.emplace_back(r, entry);
+        const bool front = glm::dot(areaVector(mesh.scene, hits[i].triangle), direction) < 0;
+        const std::uint32_t seen = receivers.at(hits[i].triangle, hits[i].barycentric, front);
+        if (seen != ObjectReceivers::kNone) add(above[i], GatherPlan::kSelf | seen);
     }
+    if (!clusters.of.empty()) {
+        launchFromClusters(receivers, clusters, open, launchOf, part);
+    } else {
+        for (const std::uint32_t r : open) {
+            launchOf.push_back(static_cast<std::uint32_t>(part.launches.size()));
+            part.launches.push_back(receivers.position[r]);
+        }
+    }
+    for (std::size_t i = 0; i < open.size(); ++i) add(open[i], launchOf[i]);
     return part;
 }
 
@@ -151,10 +150,14 @@ GatherPlan makeGatherPlan(const ObjectReceivers& receivers, const Sphere& bounds
         plan.directions.push_back(set.direction(static_cast<std::uint32_t>(d)));
         weights.push_back(set.weight(static_cast<std::uint32_t>(d)));
     }
+    Clusters clusters;
+    if (params.cellsAcross > 0) {
+        clusters.of = clusterReceivers(receivers, 2 * bounds.radius / params.cellsAcross);
+        clusters.middle = middles(receivers, clusters.of);
+    }
     std::vector<DirectionPart> parts(plan.directions.size());
     parallelFor(parts.size(), 4, [&](std::size_t d) {
-        parts[d] =
-            planDirection(receivers, bounds, plan.directions[d], weights[d], params.cellsAcross);
+        parts[d] = planDirection(receivers, clusters, plan.directions[d], weights[d]);
     });
     assemble(parts, receivers.size(), plan);
     return plan;
@@ -162,17 +165,19 @@ GatherPlan makeGatherPlan(const ObjectReceivers& receivers, const Sphere& bounds
 
 void GatherSights::trace(const GatherPlan& plan, const Pose& pose, const Scene& scene,
                          const RayScene& rays, const RoomTexels& room, const SightObjects& objects,
-                         bool emission) {
+                         const Coverage& coverage, bool emission) {
     const std::size_t count = plan.launches.size();
-    texel_.assign(count, kNoTexel);
-    valid_.assign(count, 1);
+    texel_.resize(count);
+    valid_.resize(count);
     const std::size_t blocks =
         (plan.directions.size() + kDirectionsPerBlock - 1) / kDirectionsPerBlock;
     others_.resize(blocks);
-    parallelFor(blocks, 4, [&](std::size_t block) {
+    parallelFor(blocks, 2, [&](std::size_t block) {
         const std::size_t end = std::min(plan.directions.size(), (block + 1) * kDirectionsPerBlock);
         const std::uint32_t first = plan.firstLaunch[block * kDirectionsPerBlock];
-        std::vector<Ray> queue;
+        thread_local std::vector<Ray> queue;
+        thread_local Sights sights;
+        queue.clear();
         for (std::size_t d = block * kDirectionsPerBlock; d < end; ++d) {
             const Vec3 direction = pose.direction(plan.directions[d]);
             // From just within the object: what touches it is seen.
@@ -182,17 +187,25 @@ void GatherSights::trace(const GatherPlan& plan, const Pose& pose, const Scene& 
         }
         SightTracer tracer(scene, rays, room);
         tracer.setObjects(objects);
-        others_[block].clear();
-        for (const Sight& s : tracer.trace(queue)) {
-            const bool plain = s.texel != kNoTexel && !s.inMirror;
-            if (plain) texel_[first + s.ray] = s.texel;
-            Seen seen{first + s.ray, s};
-            if (s.emissionApart && !emission) seen.sight.emission = Vec3(0);
-            if (plain) seen.sight.texel = kNoTexel;
-            if (!plain || seen.sight.emission != Vec3(0)) others_[block].push_back(seen);
+        tracer.trace(queue, sights);
+        // What an object lies on is dark, and it is not known how dark.
+        const auto isDark = [&](std::uint32_t texel) {
+            return texel != kNoTexel && coverage.uncovered(texel) <= 0;
+        };
+        for (std::size_t i = 0; i < queue.size(); ++i) {
+            const bool dark = isDark(sights.texel[i]);
+            texel_[first + i] = dark ? kNoTexel : sights.texel[i];
+            valid_[first + i] = !dark && !sights.within[i];
         }
-        for (std::size_t i = 0; i < queue.size(); ++i)
-            if (tracer.within()[i]) valid_[first + i] = 0;
+        others_[block].clear();
+        for (const Sight& sight : sights.others) {
+            if (isDark(sight.texel)) {
+                if (!sight.inMirror) valid_[first + sight.ray] = 0;
+                continue;
+            }
+            others_[block].push_back({first + sight.ray, sight});
+            if (sight.emissionApart && !emission) others_[block].back().sight.emission = Vec3(0);
+        }
     });
 }
 

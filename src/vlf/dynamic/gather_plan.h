@@ -7,9 +7,10 @@
 // are black and count; those that start within a solid are no samples. The set turns with the
 // object, so that which part of it hides or shows which is found once.
 //
-// Neighbours see almost the same: where receivers are many, rays start at the far ends of a grid of
-// lines through the object, and every receiver reads the one that starts next to it.
+// Neighbours see almost the same: receivers that lie close together and face alike share, for each
+// direction, the ray of the one in their middle.
 
+#include "vlf/dynamic/coverage.h"
 #include "vlf/dynamic/object_receivers.h"
 #include "vlf/dynamic/sight.h"
 
@@ -22,8 +23,8 @@ namespace vlf {
 struct GatherPlanParams {
     int lines = 513;
     int step = 1;           ///< only every step-th direction
-    float cellsAcross = 6;  ///< of the grid, over the diameter of the object; 0: a ray of its own
-                            ///< for each receiver and direction
+    float cellsAcross = 4;  ///< patches that share rays, over the diameter of the object; 0: a ray
+                            ///< of its own for each receiver and direction
 };
 
 /// Model space; shared by all objects of one model and settings.
@@ -51,7 +52,8 @@ class GatherSights {
     /// Traces them for an object in this pose. `emission`: of the room's emitters as they are met;
     /// otherwise only where direct light does not have it.
     void trace(const GatherPlan& plan, const Pose& pose, const Scene& scene, const RayScene& rays,
-               const RoomTexels& room, const SightObjects& objects, bool emission);
+               const RoomTexels& room, const SightObjects& objects, const Coverage& coverage,
+               bool emission);
 
     /// Irradiance at the receivers, added to what is in `irradiance`. `own`: irradiance at the
     /// receivers as parts of the object see it.

@@ -56,7 +56,7 @@ void ObjectLight::look(const DynamicObject& object, const Surroundings& around, 
     std::fill(own_.begin(), own_.end(), Vec3(0));
     if (plan_->gathers) {
         sights_.trace(plan_->gather, object.pose, around.scene, around.rays, around.room, objects,
-                      object.settings.gather.emittersByDirections);
+                      around.coverage, object.settings.gather.emittersByDirections);
         if (object.settings.gather.emittersByDirections)
             std::fill(direct_.begin(), direct_.end(), Vec3(0));
         else
@@ -64,7 +64,7 @@ void ObjectLight::look(const DynamicObject& object, const Surroundings& around, 
     }
     if (lines_)
         delta_.trace(lines_->data, object.pose, around.scene, around.rays, around.room, objects,
-                     around.roomRadiance);
+                     around.coverage, around.roomRadiance);
 }
 
 void ObjectLight::findDirect(const DynamicObject& object, const Surroundings& around) {

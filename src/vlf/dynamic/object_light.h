@@ -19,6 +19,7 @@ struct Surroundings {
     std::span<const Vec3> radiance;      ///< the same with them
     const RayInstances& instances;
     std::span<const LitObject> lit;
+    const Coverage& coverage;
     Vec3 meanIrradiance{0};
 };
 

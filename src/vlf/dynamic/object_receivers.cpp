@@ -8,7 +8,7 @@ namespace vlf {
 
 namespace {
 
-constexpr double kTexelBudget = 400;
+constexpr double kTexelBudget = 200;
 
 Vec3 meanReflectance(const Scene& scene, std::span<const SurfacePoint> points) {
     Vec3 sum(0);

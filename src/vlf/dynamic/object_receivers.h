@@ -36,7 +36,7 @@ struct ObjectReceivers {
 };
 
 /// Vertices of mesh(settings.subdivision), or texels. Of texels of no given size there are about
-/// 400. `model` must outlive them. Throws InputError as unwrap does.
+/// 200. `model` must outlive them. Throws InputError as unwrap does.
 std::unique_ptr<const ObjectReceivers> makeReceivers(const ObjectModel& model,
                                                      const GatherSettings& settings);
 

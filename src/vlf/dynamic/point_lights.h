@@ -2,8 +2,13 @@
 // A few point lights and an ambient term that stand for a baked room's emitters and the light they
 // spread: what `lights` shades with and hard shadows are cast by.
 
+#include "vlf/dynamic/object_model.h"
+#include "vlf/dynamic/room_texels.h"
+#include "vlf/field/irradiance_atlas.h"
+#include "vlf/math/pose.h"
 #include "vlf/math/vector.h"
 
+#include <span>
 #include <vector>
 
 namespace vlf {
@@ -14,11 +19,30 @@ struct PointLight {
     Vec3 position{0};   ///< metres
     Vec3 intensity{0};  ///< W·sr⁻¹ along the normal
     Vec3 normal{0};
+    float area = 0;    ///< m², of the emitters it stands for
+    float radius = 0;  ///< metres about it that belong to these emitters and cast no shadow
 };
 
 struct PointLighting {
     std::vector<PointLight> lights;  ///< the most powerful first
     Vec3 ambient{0};                 ///< irradiance, W·m⁻²
 };
+
+/// At most `maxLights` (>= 1) lights, of the power of all emitters: near ones of like directions
+/// are one, those wider than a fifth of the room's radius are several while there are lights to
+/// spare. The ambient term is the mean over the room of its indirect irradiance: of what `atlas`
+/// has beyond the direct light of the emitters, which is sampled at about a thousand texels.
+PointLighting estimatePointLights(const Scene& scene, const RayScene& rays, const RoomTexels& room,
+                                  const IrradianceAtlas& atlas, int maxLights = 8);
+
+/// Irradiance at the vertices of an object in this pose, `irradiance` having
+/// mesh.sidedVertexCount() entries:
+///
+///     E = ambient + Σ I cosθ_light⁺ cosθ⁺ V / (r² + a/π),
+///
+/// V being 0 in the shadow of the room, `rays`. An emitter's area a makes the light of a disc right
+/// along its axis at any distance.
+void shadeByLights(const PointLighting& lighting, const ObjectMesh& mesh, const Pose& pose,
+                   const RayScene& rays, std::span<Vec3> irradiance);
 
 }  // namespace vlf

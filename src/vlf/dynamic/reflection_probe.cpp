@@ -10,10 +10,10 @@ namespace vlf {
 
 namespace {
 
-constexpr int kSteps = 24;      // of equal angle along a ray
-constexpr int kBisections = 6;  // of the step in which it meets a surface
-constexpr float kGap = 0.1f;    // of the distance: a longer way behind a surface is beside it
-constexpr float kParallel = 1e-3f;
+constexpr int kSteps = 24;       // of equal angle along a ray
+constexpr int kRefinements = 6;  // of the step in which it meets a surface
+constexpr float kGap = 0.1f;     // of the distance: a longer way behind a surface is beside it
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr std::size_t kBatch = 1024;
 
 /// Face and position on it, in texels.
@@ -60,7 +60,7 @@ struct Bilinear {
     }
 };
 
-/// A ray as the probe's centre sees it: its points by the angle from where it starts.
+/// A ray as the probe's centre sees it.
 class Sightline {
   public:
     Sightline(const ReflectionProbe& probe, const Vec3& origin, const Vec3& direction)
@@ -68,21 +68,24 @@ class Sightline {
         const float along = glm::dot(start_, direction);
         across_ = std::sqrt(std::max(glm::dot(start_, start_) - along * along, 0.0f));
         first_ = std::atan2(along, across_);
+        end_ = glm::length(start_) + 1.01f * probe.farthest;
     }
 
-    bool passesCentre() const { return across_ <= kParallel * glm::length(start_); }
-
-    /// Metres along the ray at fraction s in [0, 1) of all angles.
+    /// Metres along the ray at fraction s in [0, 1] of all angles, at most to where nothing is.
     float distance(float s) const {
-        const float quarter = 0.5f * kPi;
-        return across_ * (std::tan(glm::mix(first_, quarter, s)) - std::tan(first_));
+        const float angle = glm::mix(first_, 0.5f * kPi, s);
+        if (s >= 1 || std::cos(angle) * end_ <= across_) return end_;
+        return std::min(across_ * (std::tan(angle) - std::tan(first_)), end_);
     }
 
-    /// How far a point of the ray lies behind what is seen in its direction, in units of that
-    /// distance; negative before it.
-    float behind(float s) const {
-        const Vec3 q = start_ + distance(s) * direction_;
+    Vec3 fromCentre(float t) const { return start_ + t * direction_; }
+
+    /// How far the point at t lies behind what is seen in its direction, in units of that distance;
+    /// negative before it.
+    float behind(float t) const {
+        const Vec3 q = fromCentre(t);
         const float length = glm::length(q);
+        if (length <= 0) return -1;
         return length * Bilinear(q, probe_.size).of(probe_.inverseDistance) - 1;
     }
 
@@ -91,29 +94,35 @@ class Sightline {
     Vec3 start_, direction_;
     float across_;  ///< metres from the centre to the ray's line
     float first_;   ///< angle of the start from that line's nearest point
+    float end_;
 };
 
-ProbeView viewTowards(const ReflectionProbe& probe, const Vec3& fromCentre) {
-    return {Bilinear(fromCentre, probe.size).of(probe.radiance), 0};
+/// Where between `in`, before the surface, and `out`, behind it, the ray meets it.
+float refine(const Sightline& line, float in, float before, float out, float behind) {
+    for (int k = 0; k < kRefinements && behind > 0; ++k) {
+        const float t = glm::mix(in, out, before / (before - behind));
+        const float here = line.behind(t);
+        if (here >= 0)
+            out = t, behind = here, before *= 0.5f;
+        else
+            in = t, before = here, behind *= 0.5f;
+    }
+    return out;
 }
 
-/// Fraction of the angles where the ray meets what the probe shows.
+/// Metres along the ray to what the probe shows.
 float meet(const Sightline& line) {
-    constexpr float kEnd = 1 - 1e-3f;
-    float in = 0;
+    float in = 0, before = line.behind(0);
     for (int i = 1; i <= kSteps; ++i) {
-        float out = kEnd * static_cast<float>(i) / kSteps;
-        const float next = out;
-        if (line.behind(out) >= 0) {
-            for (int k = 0; k < kBisections; ++k) {
-                const float middle = 0.5f * (in + out);
-                (line.behind(middle) >= 0 ? out : in) = middle;
-            }
-            if (line.behind(out) <= kGap) return out;
+        const float out = line.distance(static_cast<float>(i) / kSteps);
+        const float behind = line.behind(out);
+        if (before < 0 && behind >= 0) {
+            const float t = refine(line, in, before, out, behind);
+            if (i == kSteps || line.behind(t) <= kGap) return t;
         }
-        in = next;
+        in = out, before = behind;
     }
-    return kEnd;
+    return before < 0 ? kInfinity : in;
 }
 
 }  // namespace
@@ -153,22 +162,17 @@ void fillProbe(ReflectionProbe& probe, const Vec3& centre, int size, const Probe
             std::span(from).first(count));
         for (std::size_t i = 0; i < count; ++i) probe.inverseDistance[first + i] = 1 / from[i];
     });
+    probe.farthest = 0;
+    for (const float inverse : probe.inverseDistance)
+        if (inverse > 0) probe.farthest = std::max(probe.farthest, 1 / inverse);
 }
 
 ProbeView lookUp(const ReflectionProbe& probe, const Vec3& origin, const Vec3& direction) {
-    const Vec3 start = origin - probe.centre;
     const Sightline line(probe, origin, direction);
-    float distance;
-    if (line.passesCentre()) {
-        const float inverse = Bilinear(direction, probe.size).of(probe.inverseDistance);
-        distance = std::max(1 / inverse - glm::dot(start, direction), 0.0f);
-        if (inverse <= 0) distance = std::numeric_limits<float>::infinity();
-    } else {
-        distance = line.distance(meet(line));
-    }
-    const Vec3 seen = std::isfinite(distance) ? start + distance * direction : direction;
-    ProbeView view = viewTowards(probe, seen);
-    view.distance = distance;
+    ProbeView view;
+    view.distance = meet(line);
+    const Vec3 seen = std::isfinite(view.distance) ? line.fromCentre(view.distance) : direction;
+    view.radiance = Bilinear(seen, probe.size).of(probe.radiance);
     return view;
 }
 

@@ -22,6 +22,7 @@ struct ReflectionProbe {
     int size = 0;
     std::vector<Vec3> radiance;          ///< W·m⁻²·sr⁻¹
     std::vector<float> inverseDistance;  ///< 1/m from the centre; 0: nothing there
+    float farthest = 0;                  ///< metres to the farthest of what is there
 
     std::size_t texelCount() const { return std::size_t{6} * size * size; }
 
@@ -43,7 +44,8 @@ struct ProbeView {
 };
 
 /// What a ray of unit direction from a point near the probe's centre sees: it is followed in equal
-/// angles about the centre until it lies behind what the probe shows. Surfaces that the centre does
+/// angles about the centre until it lies behind what the probe shows, and met there by regula
+/// falsi: on a plane, length over distance is linear along the ray. Surfaces that the centre does
 /// not see are not found.
 ProbeView lookUp(const ReflectionProbe& probe, const Vec3& origin, const Vec3& direction);
 

@@ -71,6 +71,9 @@ RoomTexels makeRoomTexels(const Scene& scene, const RayScene& rays, const LightF
         room.triangles.push_back({areaVector(scene, t), field.triangleCharts[t],
                                   !material.isMirror() && !material.isEmitter()});
     }
+    room.excluded.assign(unwrap.atlasSize(), 0);
+    for (const auto* texels : {&unwrap.buried, &unwrap.divided})
+        for (const ChartTexel& t : *texels) room.excluded[t.texel] = 1;
     parallelFor(unwrap.texels.size(), 512, [&](std::size_t i) {
         const std::uint32_t texel = unwrap.texels[i];
         room.source[texel] = texel;

@@ -32,10 +32,11 @@ struct RoomTexels {
     Unwrap unwrap;
     LightSources sources;
     FieldFrame frame;
-    std::vector<std::uint32_t> source;  ///< the covered texel of the same chart that stands for a
-                                        ///< texel, itself if it is covered; kNoTexel: none
-    std::vector<Vec3> reflectance;      ///< diffuse, of covered texels
-    std::vector<float> area;            ///< m², of covered texels
+    std::vector<std::uint32_t> source;   ///< the covered texel of the same chart that stands for a
+                                         ///< texel, itself if it is covered; kNoTexel: none
+    std::vector<std::uint8_t> excluded;  ///< 1: within a solid or cut by a wall: not to be seen
+    std::vector<Vec3> reflectance;       ///< diffuse, of covered texels
+    std::vector<float> area;             ///< m², of covered texels
     std::vector<RoomTriangle> triangles;
     std::vector<TexelGroup> groups;
     std::vector<std::uint32_t> grouped;  ///< entries of unwrap.texels

@@ -11,9 +11,12 @@ namespace {
 constexpr float kMinThroughput = 1e-4f;
 }
 
-const std::vector<Sight>& SightTracer::trace(std::span<const Ray> rays) {
-    sights_.clear();
-    within_.assign(rays.size(), 0);
+void SightTracer::trace(std::span<const Ray> rays, Sights& sights) {
+    sights_ = &sights;
+    sights.others.clear();
+    sights.texel.assign(rays.size(), kNoTexel);
+    sights.distance.resize(rays.size());
+    sights.within.assign(rays.size(), 0);
     nextQueue_.clear(), nextPaths_.clear();
     findHits(rays, true);
     for (std::uint32_t i = 0; i < rays.size(); ++i) meet({i, 0, true, 0, Vec3(1)}, rays[i], i);
@@ -23,7 +26,6 @@ const std::vector<Sight>& SightTracer::trace(std::span<const Ray> rays) {
         findHits(queue_, false);
         for (std::size_t i = 0; i < queue_.size(); ++i) meet(paths_[i], queue_[i], i);
     }
-    return sights_;
 }
 
 void SightTracer::findHits(std::span<const Ray> rays, bool first) {
@@ -52,14 +54,21 @@ void SightTracer::meetRoom(const Path& path, const Ray& ray, const Hit& hit) {
     const RoomTriangle& triangle = room_.triangles[hit.triangle];
     const bool front = glm::dot(triangle.areaVector, ray.direction) < 0;
     const std::uint32_t chart = front ? triangle.charts.front : triangle.charts.back;
-    if (chart == kNoChart) {
-        if (path.reflections == 0) within_[path.ray] = 1;
+    const Vec3 position = ray.origin + hit.t * ray.direction;
+    const std::uint32_t texel = chart == kNoChart ? kNoTexel : atlasTexel(chart, position);
+    if (texel == kNoTexel || room_.excluded[texel]) {
+        if (path.reflections == 0) sights_->within[path.ray] = 1;
         return;
     }
-    const Vec3 position = ray.origin + hit.t * ray.direction;
+    if (triangle.plain && path.reflections == 0 && room_.source[texel] == texel) {
+        sights_->texel[path.ray] = texel;
+        sights_->distance[path.ray] = hit.t;
+        return;
+    }
     Sight sight;
     sight.ray = path.ray;
-    sight.texel = texelAt(chart, position);
+    sight.texel = room_.source[texel];
+    sight.covered = sight.texel == texel;
     sight.triangle = hit.triangle;
     sight.barycentric = hit.barycentric;
     sight.front = front;
@@ -67,7 +76,7 @@ void SightTracer::meetRoom(const Path& path, const Ray& ray, const Hit& hit) {
     sight.distance = path.distance + hit.t;
     sight.throughput = path.throughput;
     if (triangle.plain) {
-        sights_.push_back(sight);
+        sights_->others.push_back(sight);
         return;
     }
     const Material& material = scene_.material(hit.triangle);
@@ -76,7 +85,7 @@ void SightTracer::meetRoom(const Path& path, const Ray& ray, const Hit& hit) {
             emittedRadiance(scene_, material, uvAt(scene_, hit.triangle, hit.barycentric));
         sight.emissionApart = room_.sources.covers(path.reflections, path.planarOnly);
     }
-    if (!material.isPureMirror() || material.isEmitter()) sights_.push_back(sight);
+    if (!material.isPureMirror() || material.isEmitter()) sights_->others.push_back(sight);
     if (!material.isMirror()) return;
     const Vec3 side = geometricNormal(scene_, hit.triangle) * (front ? 1.0f : -1.0f);
     const bool planar = room_.unwrap.charts[chart].planar;
@@ -106,7 +115,7 @@ void SightTracer::meetObject(const Path& path, const Ray& ray, const InstanceHit
     const Vec2 uv = uvAt(scene, hit.triangle, hit.barycentric);
     if (material.isEmitter() && (sight.front || material.emitsBothSides))
         sight.emission = emittedRadiance(scene, material, uv), sight.emissionApart = false;
-    if (!material.isPureMirror() || material.isEmitter()) sights_.push_back(sight);
+    if (!material.isPureMirror() || material.isEmitter()) sights_->others.push_back(sight);
     if (!material.isMirror()) return;
     const float scale = object.pose.scale;
     reflect(path, ray, hit.t,
@@ -129,12 +138,12 @@ void SightTracer::reflect(Path path, const Ray& ray, float t, const MirrorPoint&
     nextPaths_.push_back(path);
 }
 
-std::uint32_t SightTracer::texelAt(std::uint32_t chart, const Vec3& position) const {
+std::uint32_t SightTracer::atlasTexel(std::uint32_t chart, const Vec3& position) const {
     const Chart& c = room_.unwrap.charts[chart];
     const Vec2 t = c.texelCoordinates(position);
     const auto x = static_cast<std::uint32_t>(std::clamp(t.x, 0.0f, c.width - 1.0f));
     const auto y = static_cast<std::uint32_t>(std::clamp(t.y, 0.0f, c.height - 1.0f));
-    return room_.source[(c.y + y) * room_.unwrap.atlasWidth + c.x + x];
+    return (c.y + y) * room_.unwrap.atlasWidth + c.x + x;
 }
 
 Vec3 diffuseRadiance(const Sight& sight, std::span<const Vec3> texelRadiance,

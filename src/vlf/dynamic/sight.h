@@ -13,10 +13,12 @@ namespace vlf {
 
 inline constexpr std::uint32_t kNoObject = 0xffffffffu;
 
-/// A surface that reflects diffusely, at the end of a ray or on its way.
+/// A surface that reflects diffusely, at the end of a ray or on its way, where more is to be said
+/// of it than which texel of the room it is.
 struct Sight {
     std::uint32_t ray = 0;
     std::uint32_t texel = kNoTexel;    ///< covered texel of the room; kNoTexel: an object or black
+    bool covered = true;               ///< it is there, not beside it
     std::uint32_t object = kNoObject;  ///< of the lit objects
     std::uint32_t triangle = kNoTriangle;
     Vec2 barycentric{0};
@@ -35,7 +37,18 @@ struct SightObjects {
     std::uint32_t own = kNoObject;  ///< rays start on this one and meet it only in mirrors
 };
 
-/// Traces rays. Refers to what it is given; memory is kept from call to call: one for each thread.
+/// What rays have met. A ray has one surface, none if it meets nothing or the inside of a solid, or
+/// several where mirrors on its way reflect diffusely, too.
+struct Sights {
+    std::vector<std::uint32_t> texel;  ///< by ray: met at once, covered, no emitter; or kNoTexel
+    std::vector<float> distance;       ///< by ray, of these
+    std::vector<Sight> others;         ///< all else, those in mirrors last
+    std::vector<std::uint8_t> within;  ///< by ray: 1 if the first surface it meets shows its inner
+                                       ///< side or lies within another, so that the ray starts
+                                       ///< within a solid or outside the room
+};
+
+/// Traces rays. Refers to what it is given.
 class SightTracer {
   public:
     SightTracer(const Scene& scene, const RayScene& rays, const RoomTexels& room)
@@ -44,14 +57,8 @@ class SightTracer {
     /// Of the room alone unless there are objects to be met.
     void setObjects(const SightObjects& objects) { objects_ = objects; }
 
-    /// What the rays see, those in mirrors after all others. A ray has one sight, none if it meets
-    /// nothing or the inside of a solid (`within()`), or several where mirrors on its way reflect
-    /// diffusely, too.
-    const std::vector<Sight>& trace(std::span<const Ray> rays);
-
-    /// By ray: 1 if the first surface it meets shows its inner side, so that the ray starts within
-    /// a solid or outside the room.
-    const std::vector<std::uint8_t>& within() const { return within_; }
+    /// What the rays see.
+    void trace(std::span<const Ray> rays, Sights& sights);
 
   private:
     struct Path {
@@ -73,14 +80,13 @@ class SightTracer {
     void meetRoom(const Path& path, const Ray& ray, const Hit& hit);
     void meetObject(const Path& path, const Ray& ray, const InstanceHit& hit);
     void reflect(Path path, const Ray& ray, float t, const MirrorPoint& mirror);
-    std::uint32_t texelAt(std::uint32_t chart, const Vec3& position) const;
+    std::uint32_t atlasTexel(std::uint32_t chart, const Vec3& position) const;
 
     const Scene& scene_;
     const RayScene& rays_;
     const RoomTexels& room_;
     SightObjects objects_;
-    std::vector<Sight> sights_;
-    std::vector<std::uint8_t> within_;
+    Sights* sights_ = nullptr;
     std::vector<Hit> hits_;
     std::vector<InstanceHit> objectHits_;
     std::vector<Ray> queue_, nextQueue_;

@@ -19,8 +19,8 @@ bool mayHide(const Sphere& receiver, const Sphere& light, const Sphere& object) 
     const float lightDistance = glm::length(toLight), objectDistance = glm::length(toObject);
     const float objectReach = object.radius + receiver.radius;
     const float lightReach = light.radius + receiver.radius;
-    if (objectDistance <= objectReach || lightDistance <= lightReach) return true;
     if (objectDistance - objectReach > lightDistance + lightReach) return false;
+    if (objectDistance <= objectReach || lightDistance <= lightReach) return true;
     const float cosine = glm::dot(toLight, toObject) / (lightDistance * objectDistance);
     const float angle = std::acos(std::clamp(cosine, -1.0f, 1.0f));
     return angle <= std::asin(lightReach / lightDistance) + std::asin(objectReach / objectDistance);
@@ -87,19 +87,22 @@ std::vector<std::uint32_t> texelsInShadow(const Scene& scene, const RoomTexels& 
 }
 
 TexelLoss findSoftShadows(const Scene& scene, const RayScene& rays, const RoomTexels& room,
-                          std::span<const Sphere> objects, const ExtraOccluder& occluder,
-                          int samples) {
+                          const Coverage& coverage, std::span<const Sphere> objects,
+                          const ExtraOccluder& occluder, int samples) {
     TexelLoss result;
-    result.texels = texelsInShadow(scene, room, objects);
-    result.loss.resize(result.texels.size());
-    const std::size_t blocks = (result.texels.size() + kTexelsPerBlock - 1) / kTexelsPerBlock;
+    result.entries = texelsInShadow(scene, room, objects);
+    result.loss.resize(result.entries.size());
+    const std::size_t blocks = (result.entries.size() + kTexelsPerBlock - 1) / kTexelsPerBlock;
     parallelFor(blocks, 1, [&](std::size_t block) {
         LightGatherer gatherer(scene, rays, room.unwrap, room.sources, 0);
         gatherer.setExtraOccluder(occluder);
-        const std::size_t end = std::min(result.texels.size(), (block + 1) * kTexelsPerBlock);
-        for (std::size_t i = block * kTexelsPerBlock; i < end; ++i)
-            result.loss[i] = gatherer.irradianceBlocked(
-                texelReceiver(scene, room.unwrap, result.texels[i]), samples);
+        const std::size_t end = std::min(result.entries.size(), (block + 1) * kTexelsPerBlock);
+        for (std::size_t i = block * kTexelsPerBlock; i < end; ++i) {
+            LightReceiver receiver = texelReceiver(scene, room.unwrap, result.entries[i]);
+            receiver.points = coverage.points(room, result.entries[i]);
+            if (!receiver.points.empty())
+                result.loss[i] = gatherer.irradianceBlocked(receiver, samples);
+        }
     });
     return result;
 }

@@ -2,6 +2,7 @@
 // Direct light of the room's emitters that objects take from its texels: shadow rays of the texels
 // that may lie in a shadow, as in the bake.
 
+#include "vlf/dynamic/coverage.h"
 #include "vlf/dynamic/room_texels.h"
 #include "vlf/propagate/light_gatherer.h"
 
@@ -11,9 +12,9 @@
 
 namespace vlf {
 
-/// Irradiance lost by entry texels[i] of room.unwrap.texels, W·m⁻² >= 0.
+/// Irradiance that entries of room.unwrap.texels lose, W·m⁻² >= 0.
 struct TexelLoss {
-    std::vector<std::uint32_t> texels;
+    std::vector<std::uint32_t> entries;
     std::vector<Vec3> loss;
 };
 
@@ -22,9 +23,9 @@ struct TexelLoss {
 std::vector<std::uint32_t> texelsInShadow(const Scene& scene, const RoomTexels& room,
                                           std::span<const Sphere> objects);
 
-/// `occluder`: the objects.
+/// `occluder`: the objects. What they cover loses nothing.
 TexelLoss findSoftShadows(const Scene& scene, const RayScene& rays, const RoomTexels& room,
-                          std::span<const Sphere> objects, const ExtraOccluder& occluder,
-                          int samples);
+                          const Coverage& coverage, std::span<const Sphere> objects,
+                          const ExtraOccluder& occluder, int samples);
 
 }  // namespace vlf

@@ -135,7 +135,7 @@ BakeState makeState(const Scene& scene, const BakeParams& params, Progress& prog
     BakeState state(scene, params);
     state.frame = frameOf(scene);
     state.unwrap = timed(state.report, progress, "charts", [&] {
-        return unwrap(scene, state.rays, {params.texelSize, params.texelBudget, params.seed, {}},
+        return unwrap(scene, state.rays, {params.texelSize, params.texelBudget, params.seed},
                       progress);
     });
     state.report.texels = state.unwrap.texels.size();

@@ -63,7 +63,8 @@ struct UnwrapParams {
     float texelSize = 0;         ///< metres, of flat surfaces; 0: from the budget
     double texelBudget = 75000;  ///< about how many texels to spend on the scene
     std::uint64_t seed = 0;
-    std::optional<OpenSides> sides;  ///< that have texels; none: those that light can reach
+    std::optional<OpenSides> sides =
+        std::nullopt;  ///< that have texels; none: those that light can reach
 };
 
 /// Throws InputError if the scene would need more than 2^28 texels, Cancelled.

@@ -69,7 +69,8 @@ FieldShader::FieldShader(const Scene& scene, const RayScene& rays, const LightFi
       mirrors_(mirrors),
       lookup_(lookup),
       objects_(objects && !objects->litObjects().empty() ? objects : nullptr),
-      shadows_(objects_, rays) {
+      shadows_(scene, rays, objects_ ? objects_->hardShadowLight() : nullptr,
+               objects_ ? hardShadowCasters(*objects_) : std::vector<HardShadows::Caster>{}) {
     if (field.triangleCharts.size() != scene.triangles.size())
         throw InputError("the light field belongs to another scene: bake this one");
     if (mirrors == MirrorMethod::traced) return;

@@ -8,19 +8,18 @@ namespace {
 constexpr int kMaxLamps = 8;  // passed on the way to the light
 }
 
-HardShadows::HardShadows(const DynamicRoom* objects, const RayScene& rays) : rays_(rays) {
-    if (!objects || !objects->hardShadowLight()) return;
-    light_ = objects->hardShadowLight();
-    scene_ = &objects->scene();
-    for (std::size_t i = 0; i < objects->litObjects().size(); ++i) {
-        const ObjectSettings& settings = objects->object(objects->litNumbers()[i]).settings;
+std::vector<HardShadows::Caster> hardShadowCasters(const DynamicRoom& objects) {
+    std::vector<HardShadows::Caster> casters;
+    for (std::size_t i = 0; i < objects.litObjects().size(); ++i) {
+        const ObjectSettings& settings = objects.object(objects.litNumbers()[i]).settings;
         if (settings.shadow == ShadowKind::hard && settings.hard.opacity > 0)
-            casters_.push_back({&objects->litObjects()[i], settings.hard.opacity});
+            casters.push_back({&objects.litObjects()[i], settings.hard.opacity});
     }
+    return casters;
 }
 
 float HardShadows::remaining(const Surface& surface) const {
-    if (casters_.empty()) return 1;
+    if (casters_.empty() || !light_) return 1;
     const Vec3 origin = surface.position + rays_.epsilon() * surface.geometricNormal;
     const Vec3 toLight = light_->position - origin;
     if (glm::dot(toLight, surface.geometricNormal) <= 0) return 1;
@@ -49,7 +48,7 @@ bool HardShadows::reachesLight(Ray ray) const {
     for (int lamps = 0; lamps < kMaxLamps; ++lamps) {
         const Hit hit = rays_.closest(ray);
         if (!hit) return true;
-        if (!scene_->material(hit.triangle).isEmitter()) return false;
+        if (!scene_.material(hit.triangle).isEmitter()) return false;
         ray.tMin = hit.t + rays_.epsilon() / length;
     }
     return true;

@@ -5,6 +5,7 @@
 #include "vlf/dynamic/dynamic_room.h"
 #include "vlf/render/cpu/surface.h"
 
+#include <utility>
 #include <vector>
 
 namespace vlf {
@@ -13,8 +14,15 @@ namespace vlf {
 /// threads.
 class HardShadows {
   public:
-    /// `objects` may be null: no shadows.
-    HardShadows(const DynamicRoom* objects, const RayScene& rays);
+    struct Caster {
+        const LitObject* object = nullptr;
+        float opacity = 1;
+    };
+
+    /// `light` may be null: no shadows.
+    HardShadows(const Scene& scene, const RayScene& rays, const PointLight* light,
+                std::vector<Caster> casters)
+        : scene_(scene), rays_(rays), light_(light), casters_(std::move(casters)) {}
 
     /// The part, in [0, 1], of a room surface's radiance that shadows leave: less than one where
     /// the surface faces the light, an object lies between them, and no other surface of the room
@@ -22,18 +30,16 @@ class HardShadows {
     float remaining(const Surface& surface) const;
 
   private:
-    struct Caster {
-        const LitObject* object;
-        float opacity;
-    };
-
     float opacityTowardsLight(const Ray& ray) const;
     bool reachesLight(Ray ray) const;
 
+    const Scene& scene_;
     const RayScene& rays_;
-    const Scene* scene_ = nullptr;
-    const PointLight* light_ = nullptr;
+    const PointLight* light_;
     std::vector<Caster> casters_;
 };
+
+/// The lit objects with ShadowKind::hard.
+std::vector<HardShadows::Caster> hardShadowCasters(const DynamicRoom& objects);
 
 }  // namespace vlf

@@ -11,6 +11,8 @@ StateGuard::StateGuard() {
         glGetIntegerv(GL_TEXTURE_BINDING_BUFFER, &units_[i].bufferTexture);
         glGetIntegerv(GL_SAMPLER_BINDING, &units_[i].sampler);
     }
+    glActiveTexture(GL_TEXTURE0 + shared::kProbeUnit);
+    glGetIntegerv(GL_TEXTURE_BINDING_CUBE_MAP_ARRAY, &cubes_);
     glActiveTexture(static_cast<GLenum>(activeTexture_));
     for (std::size_t i = 0; i < uniformBuffers_.size(); ++i)
         glGetIntegeri_v(GL_UNIFORM_BUFFER_BINDING, static_cast<GLuint>(i), &uniformBuffers_[i]);
@@ -48,6 +50,8 @@ StateGuard::~StateGuard() {
         glBindTexture(GL_TEXTURE_BUFFER, static_cast<GLuint>(units_[i].bufferTexture));
         glBindSampler(unit, static_cast<GLuint>(units_[i].sampler));
     }
+    glActiveTexture(GL_TEXTURE0 + shared::kProbeUnit);
+    glBindTexture(GL_TEXTURE_CUBE_MAP_ARRAY, static_cast<GLuint>(cubes_));
     glActiveTexture(static_cast<GLenum>(activeTexture_));
     for (std::size_t i = 0; i < uniformBuffers_.size(); ++i)
         glBindBufferBase(GL_UNIFORM_BUFFER, static_cast<GLuint>(i),

@@ -22,6 +22,9 @@ struct GpuObjectMesh {
     /// Whether it is what draws an object.
     bool draws(const LitObject& object) const;
     std::uint64_t bytes() const;
+    bool hasMirrors() const {
+        return !geometry.batches.empty() && geometry.batches.back().mirror;
+    }
 
     std::shared_ptr<const ObjectModel> model;
     const ObjectMesh* mesh;

@@ -45,6 +45,7 @@ void ObjectPass::update(const DynamicRoom& room) {
     lights_.update(objects);
     records_.clear();
     spheres_.clear();
+    probeCentres_.clear();
     for (std::size_t i = 0; i < objects.size(); ++i) {
         records_.push_back(recordOf(objects[i], i));
         spheres_.push_back(sphereOf(objects[i], meshes_.mesh(meshes_.meshOf(i)).geometry.bounds));
@@ -65,7 +66,7 @@ void ObjectPass::placeBody(Record& record, std::size_t number) const {
     record[5] = {body.firstRecord, body.firstTexel, record[5][2], record[5][3]};
 }
 
-ObjectPass::Record ObjectPass::recordOf(const LitObject& object, std::size_t number) const {
+ObjectPass::Record ObjectPass::recordOf(const LitObject& object, std::size_t number) {
     const GpuObjectMesh& mesh = meshes_.mesh(meshes_.meshOf(number));
     const ObjectLights::Place& light = lights_.place(number);
     const Mat4 m = object.pose.matrix();
@@ -81,7 +82,12 @@ ObjectPass::Record ObjectPass::recordOf(const LitObject& object, std::size_t num
     record[5][2] = static_cast<std::uint32_t>(2 * scene.triangles.size());
     record[5][3] = light.firstVertex;
     placeBody(record, number);
-    record[6] = {light.x, light.y, object.texels ? std::uint32_t{kLitByTexel} : 0,
+    std::uint32_t flags = object.texels ? kLitByTexel : 0;
+    if (mesh.hasMirrors()) {
+        probeCentres_.emplace_back(sphere);
+        flags |= static_cast<std::uint32_t>(probeCentres_.size()) << kProbeShift;
+    }
+    record[6] = {light.x, light.y, flags,
                  static_cast<std::uint32_t>(object.mesh->closed ? 0 : scene.positions.size())};
     return record;
 }
@@ -96,7 +102,15 @@ void ObjectPass::loadRecords() {
     if (count_ > 0)
         glNamedBufferSubData(recordBuffer_.id(), 0,
                              static_cast<GLsizeiptr>(count_ * sizeof(Record)), records_.data());
-    data_.counts = {static_cast<int>(count_), static_cast<int>(hits_.roomNodes()), 0, 0};
+    data_.counts.x = static_cast<int>(count_);
+    data_.counts.y = static_cast<int>(hits_.roomNodes());
+    glNamedBufferSubData(dataBuffer_.id(), 0, sizeof data_, &data_);
+}
+
+void ObjectPass::setChange(const ChangedLight& change) {
+    data_.tolerance.x = change.tolerance();
+    data_.counts.z = static_cast<int>(change.receivers().size());
+    std::copy(change.receivers().begin(), change.receivers().end(), data_.receivers);
     glNamedBufferSubData(dataBuffer_.id(), 0, sizeof data_, &data_);
 }
 
@@ -116,6 +130,8 @@ Defines ObjectPass::definesOf(const GpuObjectMesh& mesh, const RoomBatch& batch,
     if (maxComponent(Vec3(batch.data.emission)) > 0) d.emplace("EMISSION", "1");
     if (batch.mirror && settings.mode == DisplayMode::raytraced)
         d.emplace("MIRROR", "\"object_reflection.glsl\"");
+    else if (batch.mirror)
+        d.emplace("MIRROR", "\"object_probe.glsl\"");
     return d;
 }
 

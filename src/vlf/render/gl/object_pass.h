@@ -2,6 +2,7 @@
 // Draws the objects of a DynamicRoom.
 
 #include "vlf/dynamic/dynamic_room.h"
+#include "vlf/render/gl/changed_light.h"
 #include "vlf/render/gl/object_lights.h"
 #include "vlf/render/gl/object_meshes.h"
 #include "vlf/render/gl/renderer.h"
@@ -27,6 +28,12 @@ class ObjectPass {
 
     bool empty() const { return count_ == 0; }
 
+    /// Places of the reflection probes that mirrors among the objects show, by layer.
+    const std::vector<Vec3>& probeCentres() const { return probeCentres_; }
+
+    /// What shaders are told of the light that the objects change, besides the objects.
+    void setChange(const ChangedLight& change);
+
     /// Binds what shaders with OBJECTS read.
     void bind() const;
 
@@ -44,7 +51,7 @@ class ObjectPass {
   private:
     using Record = std::array<std::array<std::uint32_t, 4>, shared::kObjectTexels>;
 
-    Record recordOf(const LitObject& object, std::size_t number) const;
+    Record recordOf(const LitObject& object, std::size_t number);
     void placeBody(Record& record, std::size_t number) const;
     void loadRecords();
     void drawEach(std::size_t mesh, std::size_t first, std::size_t count) const;
@@ -60,6 +67,7 @@ class ObjectPass {
     Buffer recordBuffer_, dataBuffer_;
     TextureObject recordTexture_;
     std::size_t capacity_ = 0, count_ = 0;
+    std::vector<Vec3> probeCentres_;
     shared::ObjectsData data_{};
 };
 

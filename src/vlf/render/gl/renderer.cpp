@@ -9,6 +9,7 @@
 #include "vlf/render/gl/hit_buffers.h"
 #include "vlf/render/gl/object_pass.h"
 #include "vlf/render/gl/packed_radiance.h"
+#include "vlf/render/gl/reflection_probes.h"
 #include "vlf/render/gl/room_geometry.h"
 #include "vlf/render/gl/room_vertex_array.h"
 #include "vlf/render/gl/scene_textures.h"
@@ -18,6 +19,8 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
+#include <utility>
 #include <vector>
 
 namespace vlf {
@@ -170,7 +173,8 @@ struct Renderer::Impl {
     }
 
     /// Of the variant of the shader that draws a batch.
-    Defines definesOf(const RoomBatch& batch, const RenderSettings& settings) const {
+    Defines definesOf(const RoomBatch& batch, const RenderSettings& settings,
+                      bool probed = false) const {
         const bool traced = settings.mode == DisplayMode::raytraced;
         Defines d;
         if (scene.materials[batch.material].diffuseTexture >= 0) d.emplace("DIFFUSE_MAP", "1");
@@ -180,6 +184,9 @@ struct Renderer::Impl {
         if (batch.mirror && !traced && settings.lookup == LookupKind::plain)
             d.emplace("PLAIN", "1");
         if (batch.mirror && !objects.empty()) d.emplace("OBJECTS", "1");
+        if (probed) d.emplace("PROBED", std::to_string(ReflectionProbes::kSize));
+        if (batch.mirror && !probed && !traced && !objects.probeCentres().empty())
+            d.emplace("PROBES", "1");
         if (batch.mirror && !traced && fourATexel) d.emplace("FOUR_A_TEXEL", "1");
         return d;
     }
@@ -206,21 +213,24 @@ struct Renderer::Impl {
     }
 
     void updateObjects(const DynamicRoom& room) {
+        if (!change)
+            change.emplace(scene, lightField,
+                           !mirrorTriangles.empty() && canLookUp && fit.unchanged());
+        change->update(room.irradiance(), room.roomIrradiance());
         objects.update(room);
+        objects.setChange(*change);
+        probesStale = true;
         if (room.irradianceVersion() != roomVersion) loadIrradiance(room.irradiance());
         roomVersion = room.irradianceVersion();
         memory.hits = hits.bytes();
-        memory.objects = objects.bytes();
+        memory.objects = objects.bytes() + change->bytes() + probes.bytes();
         ++lightChanges;
     }
 
     void draw(const View& view, const RenderSettings& settings, GLuint framebuffer) {
         makeReady(settings.mode);
         const StateGuard guard;
-        viewData.clipFromWorld = view.clipFromWorld;
-        viewData.eye = Vec4(view.eye, rayStart);
-        viewData.tone = toneData(settings);
-        glNamedBufferSubData(viewBuffer.id(), 0, sizeof viewData, &viewData);
+        setView(view, settings);
         if (settings.mode == DisplayMode::wireframe)
             drawWireframe(view, settings, framebuffer);
         else if (settings.mode == DisplayMode::diagram)
@@ -231,13 +241,54 @@ struct Renderer::Impl {
     }
 
     void drawRoom(const View& view, const RenderSettings& settings, GLuint framebuffer) {
+        if (settings.mode == DisplayMode::field) drawProbes();
         prepare(view, framebuffer);
         if (!objects.empty()) {
-            objects.bind();
+            bindObjects();
             objects.draw(settings);
         }
+        drawBatches(settings);
+    }
+
+    void bindObjects() const {
+        objects.bind();
+        change->bind();
+        probes.bind();
+    }
+
+    void drawBatches(const RenderSettings& settings, bool probed = false) {
         glBindVertexArray(vertexArray.id());
-        for (std::size_t i = 0; i < batches.size(); ++i) drawBatch(i, settings);
+        for (std::size_t i = 0; i < batches.size(); ++i)
+            drawBatch(i, definesOf(batches[i], settings, probed));
+    }
+
+    /// What mirror objects show, if it may have changed.
+    void drawProbes() {
+        if (objects.probeCentres().empty() || !std::exchange(probesStale, false)) return;
+        RenderSettings settings;
+        settings.tone.reset();
+        const ViewData shown = viewData;
+        probes.draw(objects.probeCentres(), nearest,
+                    [&](const Mat4& clipFromWorld, const Vec3& eye, GLuint framebuffer) {
+                        View face;
+                        face.width = face.height = ReflectionProbes::kSize;
+                        face.clipFromWorld = clipFromWorld;
+                        face.eye = eye;
+                        setView(face, settings);
+                        prepare(face, framebuffer);
+                        bindObjects();
+                        drawBatches(settings, true);
+                    });
+        viewData = shown;
+        glNamedBufferSubData(viewBuffer.id(), 0, sizeof viewData, &viewData);
+        memory.objects = objects.bytes() + change->bytes() + probes.bytes();
+    }
+
+    void setView(const View& view, const RenderSettings& settings) {
+        viewData.clipFromWorld = view.clipFromWorld;
+        viewData.eye = Vec4(view.eye, rayStart);
+        viewData.tone = toneData(settings);
+        glNamedBufferSubData(viewBuffer.id(), 0, sizeof viewData, &viewData);
     }
 
     void drawWireframe(const View& view, const RenderSettings& settings, GLuint framebuffer) {
@@ -299,10 +350,10 @@ struct Renderer::Impl {
         hits.bind();
     }
 
-    void drawBatch(std::size_t i, const RenderSettings& settings) {
+    void drawBatch(std::size_t i, const Defines& defines) {
         const RoomBatch& batch = batches[i];
         const Material& material = scene.materials[batch.material];
-        glUseProgram(shaders.program("surface", definesOf(batch, settings)));
+        glUseProgram(shaders.program("surface", defines));
         (batch.cull ? glEnable : glDisable)(GL_CULL_FACE);
         textures.bind(kDiffuseUnit, material.diffuseTexture);
         textures.bind(kEmissionUnit, material.emissionTexture);
@@ -325,6 +376,9 @@ struct Renderer::Impl {
     std::vector<std::uint32_t> mirrorTriangles;
     HitBuffers hits;  ///< of the room once reflections are traced
     ObjectPass objects;
+    std::optional<ChangedLight> change;  ///< once objects have been there
+    ReflectionProbes probes;
+    bool probesStale = true;
     std::uint64_t roomVersion = 0;  ///< of the DynamicRoom's irradiance
     std::optional<Drawings> drawings;  ///< once one is drawn
     GLsizei indexCount = 0;
@@ -356,6 +410,7 @@ Camera Renderer::diagramView(const DiagramParams& params, const Camera& camera, 
 
 void Renderer::updateIrradiance(const IrradianceAtlas& atlas) {
     impl_->loadIrradiance(atlas);
+    impl_->probesStale = true;
     ++impl_->lightChanges;
 }
 
@@ -373,6 +428,7 @@ std::uint64_t Renderer::lightChanges() const {
 
 void Renderer::reloadShaders() {
     impl_->shaders.reload();
+    impl_->probesStale = true;
 }
 
 float Renderer::nearest() const {

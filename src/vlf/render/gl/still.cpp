@@ -99,6 +99,7 @@ Image renderStill(Renderer& renderer, const StillParams& params, Progress& progr
     requireDrawable(params);
     const Clock::time_point start = Clock::now();
     progress.stage("rendering");
+    if (params.objects) renderer.updateObjects(*params.objects);
     const int n = picturesAlongSide(params);
     const FloatTarget target(params.width, params.height);
     RenderSettings settings = settingsOf(params);

@@ -15,10 +15,11 @@ struct Body {
     uint firstVertex, firstLight, backLights;
     uvec2 atlasPlace;
     bool litByTexel;
+    int probe;  // layer; -1: none
 };
 
 const Body kRoomBody =
-    Body(-1, mat3(1), vec3(0), 1, 0u, 0u, 0u, 0u, 0u, uvec2(0), false);
+    Body(-1, mat3(1), vec3(0), 1, 0u, 0u, 0u, 0u, 0u, uvec2(0), false, -1);
 
 uvec4 objectRecord(int object, int texel) {
     return texelFetch(objectRecords, kObjectTexels * object + texel);
@@ -31,7 +32,8 @@ Body bodyOf(int object) {
           light = objectRecord(object, 6);
     return Body(object, transpose(mat3(x.xyz, y.xyz, z.xyz)), vec3(x.w, y.w, z.w),
                 uintBitsToFloat(hierarchy.x), first.x, first.y, first.z, first.w, light.w,
-                light.xy, (light.z & uint(kLitByTexel)) != 0u);
+                light.xy, (light.z & uint(kLitByTexel)) != 0u,
+                int(light.z >> kProbeShift) - 1);
 }
 
 vec3 toBody(Body body, vec3 direction) {

@@ -36,7 +36,9 @@ VLF_INT kObjectUnit = 10;         // where objects are, and what of theirs lies 
 VLF_INT kVertexLightUnit = 11;    // irradiance at their vertices
 VLF_INT kObjectAtlasUnit = 12;    // and at their texels
 VLF_INT kMirrorMapUnit = 13;
-VLF_INT kUnits = 14;
+VLF_INT kChangeUnit = 14;         // how objects change the irradiance atlas
+VLF_INT kProbeUnit = 15;          // reflection probes of mirror objects
+VLF_INT kUnits = 16;
 VLF_INT kPictureUnit = 0;  // of picture_mean.frag, as are these uniforms
 VLF_INT kSizeLocation = 0;
 VLF_INT kWeightLocation = 1;
@@ -57,7 +59,10 @@ VLF_INT kObjectLocation = 0;  // the number of the object
 //     its vertices' irradiances
 //     place in the atlas; flags; irradiances from those of the front sides to those of the back
 VLF_INT kObjectTexels = 7;
-VLF_INT kLitByTexel = 1;
+VLF_INT kLitByTexel = 1;  // the flag
+VLF_INT kProbeShift = 8;  // bits from here on: layer of the reflection probe + 1; 0: none
+
+VLF_INT kMostReceivers = 32;
 
 // An element of the radiance field, from the lowest bit: the distance (0: none), then the sum of
 // red, green and blue on a logarithmic scale, then the shares of red and blue in it.
@@ -97,15 +102,26 @@ struct MaterialData {
     vec4 flags;     // x: whether the back is black; y: the batch's first triangle among mirrors'
 };
 
+// A chart whose light the objects change, as in dynamic/changed_charts.h.
+struct ReceiverData {
+    vec4 uAxis;   // texel coordinates: axis and offset
+    vec4 vAxis;
+    vec4 normal;  // and the least coordinate along it
+    vec4 range;   // first and last of the texel coordinates that have changed
+    vec4 place;   // in the atlas; greatest coordinate along the normal; whether it is a plane
+};
+
 // Of all objects.
 struct ObjectsData {
-    vec4 sphere;  // around all of them: centre, radius
-    ivec4 counts;  // objects; nodes of the room's hierarchy
+    vec4 sphere;     // around all of them: centre, radius
+    ivec4 counts;    // objects; nodes of the room's hierarchy; receivers
+    vec4 tolerance;  // metres between a surface and where the radiance field tells it
+    ReceiverData receivers[kMostReceivers];
 };
 
 #ifdef __cplusplus
 #undef VLF_INT
-static_assert(sizeof(ObjectsData) == 2 * 16);
+static_assert(sizeof(ObjectsData) == 3 * 16 + kMostReceivers * 5 * 16);
 static_assert(sizeof(ViewData) == 64 + 6 * 16);
 static_assert(sizeof(MaterialData) == 4 * 16);
 }  // namespace vlf::shared

@@ -40,4 +40,9 @@ void main() {
     radiance += mirrorRadiance();
 #endif
     color = outputColor(radiance);
+#ifdef PROBED
+    // The inverse of the distance; the picture is a face of a cube.
+    vec2 onFace = 2 * gl_FragCoord.xy / PROBED - 1;
+    color.a = gl_FragCoord.w / length(vec3(onFace, 1));
+#endif
 }

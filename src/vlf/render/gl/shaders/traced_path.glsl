@@ -1,18 +1,7 @@
 // What a chain of reflections shows; as render/cpu/field_shader.cpp.
-#include "hit_surface.glsl"
+#include "path_step.glsl"
 
 const int kMaxReflections = 16;
-const float kMinThroughput = 1e-4;
-
-// A ray on its way, and what it has met.
-struct TracedPath {
-    vec3 origin, direction;
-    vec3 throughput;
-};
-
-bool isDark(vec3 throughput) {
-    return max(throughput.r, max(throughput.g, throughput.b)) < kMinThroughput;
-}
 
 #ifdef OBJECTS
 // The closest intersection in room and objects; makes what is hit the body.
@@ -25,19 +14,6 @@ bool traceAll(vec3 origin, vec3 direction, out TraceHit hit) {
     return hit.triangle != kNoTriangle;
 }
 #endif
-
-// Reflects the path, which has come to a surface.
-void reflectPath(HitSurface s, inout TracedPath path) {
-    path.throughput *= mirrorReflectance(s);
-#ifdef OBJECTS
-    path.direction = normalize(body.axes * mirrorDirection(s, toBody(body, path.direction)));
-    path.origin = body.axes * s.position + body.origin +
-                  view.eye.w * normalize(body.axes * s.geometricNormal);
-#else
-    path.direction = mirrorDirection(s, path.direction);
-    path.origin = s.position + view.eye.w * s.geometricNormal;
-#endif
-}
 
 // What is seen along a path that has been reflected once.
 vec3 tracedRadiance(TracedPath path) {

@@ -1,0 +1,27 @@
+// How objects have changed the light of the room at a place that a mirror shows; as
+// dynamic/changed_charts.cpp.
+
+layout(binding = kChangeUnit) uniform sampler2D changeOfIrradiance;  // factors, in the atlas
+
+// A factor of radiance that a ray sees at a distance.
+vec3 changeOfLight(vec3 origin, vec3 direction, float distance_) {
+    vec3 p = origin + distance_ * direction;
+    vec2 place = vec2(0);
+    float nearest = objects.tolerance.x;
+    bool found = false;
+    for (int i = 0; i < objects.counts.z; ++i) {
+        ReceiverData r = objects.receivers[i];
+        float slope = dot(r.normal.xyz, direction), depth = dot(r.normal.xyz, p);
+        float off = max(max(r.normal.w - depth, depth - r.place.z), 0);
+        // The distance is that of a cell; a plane says more exactly where the ray meets it.
+        vec3 q = p + (r.place.w != 0 ? (r.normal.w - depth) / min(slope, -1e-6) : 0) * direction;
+        vec2 texel = vec2(dot(r.uAxis.xyz, q) + r.uAxis.w, dot(r.vAxis.xyz, q) + r.vAxis.w);
+        if (slope < 0 && off <= nearest && texel == clamp(texel, r.range.xy, r.range.zw)) {
+            place = r.place.xy + texel;
+            nearest = off;
+            found = true;
+        }
+    }
+    if (!found) return vec3(1);
+    return textureLod(changeOfIrradiance, place / vec2(textureSize(changeOfIrradiance, 0)), 0).rgb;
+}
