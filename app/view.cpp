@@ -12,7 +12,6 @@
 #include "viewer/viewer.h"
 
 #include "vlf/base/error.h"
-#include "vlf/display/camera_path_file.h"
 #include "vlf/display/preferences.h"
 #include "vlf/io/field_file.h"
 #include "vlf/live/live_bake.h"
@@ -62,20 +61,6 @@ bool isField(const std::string& file) {
     return std::filesystem::path(file).extension() == ".vlf";
 }
 
-/// The path has the objects, or the options have.
-void follow(const std::string& path, const Globals& globals, ViewerOptions& viewer) {
-    std::vector<std::string> warnings;
-    Walk walk = readWalk(path, viewer.models, warnings);
-    for (const std::string& warning : warnings) printWarning(globals.quiet, warning);
-    viewer.session.replay = std::move(walk.camera);
-    if (walk.objects.objects.empty()) return;
-    if (!viewer.objects.objects.empty())
-        throw InputError(path +
-                         ": holds objects of its own; leave out --object and --scenario, or follow "
-                         "a path without \"objects\"");
-    viewer.objects = std::move(walk.objects);
-}
-
 ViewerOptions viewerOptions(const Options& options, const Globals& globals, const Scene& scene) {
     ViewerOptions viewer = options.viewer;
     viewer.file = options.files.front();
@@ -89,7 +74,10 @@ ViewerOptions viewerOptions(const Options& options, const Globals& globals, cons
     viewer.verbose = globals.verbose;
     viewer.objects = readObjects(options.objects, scene, viewer.models, globals);
     viewer.object = options.objects.defaults;
-    if (!options.replay.empty()) follow(options.replay, globals, viewer);
+    if (options.replay.empty()) return viewer;
+    Walk walk = readWalk(options.replay, options.objects, viewer.models, globals);
+    viewer.session.replay = std::move(walk.camera);
+    if (!walk.objects.objects.empty()) viewer.objects = std::move(walk.objects);
     return viewer;
 }
 

@@ -89,6 +89,7 @@ Viewer::Viewer(std::shared_ptr<const BakedRoom> room, const ViewerOptions& optio
       session_(options.session),
       objects_(options.objects, options.models, [this](const std::string& text) { say(text); }),
       pointer_(objects_),
+      comparison_(options.renderer, [this](const std::string& text) { say(text); }),
       shaderWatch_(options.renderer.shaderFolder) {
     RoomPreferences here = memory_.room();
     if (options.startChosen) here.pose.reset();
@@ -116,7 +117,7 @@ void Viewer::frame(double seconds) {
     statistics_.add(seconds);
     reloadShaders(step);
     updateObjects();
-    drawRoom();
+    drawRoom(step);
     adaptExposure(step);
     writeWantedPicture();
     gui_.begin(shown_.panel && !window_->pointerCaptured());
@@ -162,6 +163,7 @@ void Viewer::updateObjects() {
     if (!objects_.room()) return;
     if (changed) shownRoom_->renderer().updateObjects(*objects_.room());
     objectsMs_ = millisecondsSince(start);
+    comparison_.update(shownRoom_->shared(), objects_);
 }
 
 void Viewer::note(double pathSeconds, double cpuMs, double totalMs) {
@@ -235,7 +237,7 @@ Screen Viewer::screen() const {
 }
 
 void Viewer::pointerPressed(const Vec2& at) {
-    if (!gui_.wantsPointer() && !window_->pointerCaptured())
+    if (!gui_.wantsPointer() && !window_->pointerCaptured() && !comparison_.shown())
         pointer_.press(screen(), pixels(at), window_->contentScale());
 }
 
@@ -333,7 +335,13 @@ void Viewer::reloadShaders(float seconds) {
 }
 
 /// A mode that this room cannot be shown in does not end the walk.
-void Viewer::drawRoom() {
+void Viewer::drawRoom(float seconds) {
+    if (comparison_.shown()) {
+        const gl::TimedPass pass(roomTimer_);
+        return comparison_.draw(*shownRoom_, walk_.camera(), walk_.settings(),
+                                window_->pixelWidth(), window_->pixelHeight(), window_->pointer().x,
+                                shownRoom_->renderer().lightChanges(), seconds);
+    }
     const View view = viewOf(walk_.camera(), window_->pixelWidth(), window_->pixelHeight(),
                              shownRoom_->renderer().nearest());
     const gl::TimedPass pass(roomTimer_);
@@ -367,6 +375,7 @@ void Viewer::drawMessages(float seconds) {
 /// What is under way, in a line.
 std::string Viewer::status() const {
     std::string line = live_ ? live_->activity() : std::string();
+    if (line.empty()) line = comparison_.status();
     const std::optional<double> refined = shownRoom_->refined();
     if (line.empty() && refined && *refined < 1)
         line = fmt::format("refining {:.0f} %", 100 * *refined);
@@ -383,7 +392,10 @@ void Viewer::drawObjectGizmo() {
 }
 
 void Viewer::drawOverlays() {
-    drawObjectGizmo();
+    if (comparison_.shown())
+        comparison_.drawOverlay();
+    else
+        drawObjectGizmo();
     if (shown_.help)
         drawHelp();
     else if (shown_.panel)
