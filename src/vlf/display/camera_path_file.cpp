@@ -1,8 +1,8 @@
 #include "vlf/display/camera_path_file.h"
 
 #include "vlf/base/file.h"
-#include "vlf/base/json_element.h"
 #include "vlf/dynamic/scenario_json.h"
+#include "vlf/scene/import/json_element.h"
 
 #include <charconv>
 #include <filesystem>

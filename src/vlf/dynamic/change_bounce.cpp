@@ -13,48 +13,60 @@ namespace vlf {
 namespace {
 
 constexpr std::size_t kRaysPerBlock = 256;
+/// From this far on, in radii of a group, what arrives at one of its texels counts for them all:
+/// few rays would make single far texels flicker.
+constexpr float kFar = 3;
 
 float size(const Vec3& flux) {
     return luminance(glm::abs(flux));
 }
 
+Vec3 fluxOf(const RoomChange& change, std::uint32_t texel, const RoomTexels& room,
+            const Coverage& coverage) {
+    return room.reflectance[texel] * change.of(texel) *
+           (room.area[texel] * coverage.uncovered(texel));
+}
+
 }  // namespace
 
-/// Rays in proportion to flux; texels of less than half a ray send nothing.
-void ChangeBounce::deal(std::span<const TexelChange> sources, const RoomTexels& room,
-                        const Coverage& coverage, int rays) {
-    shots_.clear();
-    float all = 0;
-    for (const auto& [texel, change] : sources) {
-        const float area = room.area[texel] * coverage.uncovered(texel);
-        shots_.push_back({texel, room.reflectance[texel] * change * area, 0});
-        all += size(shots_.back().flux);
+/// Systematic sampling: along the texels one after the other a ray for every portion of flux.
+void ChangeBounce::aim(const RoomChange& change, const Scene& scene, float epsilon,
+                       const RoomTexels& room, const Coverage& coverage, int rays) {
+    rays_.clear(), carried_.clear(), flux_.clear();
+    double all = 0;
+    for (const std::uint32_t t : change.texels()) {
+        flux_.push_back(fluxOf(change, t, room, coverage));
+        all += size(flux_.back());
     }
-    const float perRay = all / static_cast<float>(rays);
-    for (Shot& shot : shots_)
-        if (perRay > 0) shot.rays = static_cast<int>(std::lround(size(shot.flux) / perRay));
-    std::erase_if(shots_, [](const Shot& shot) { return shot.rays == 0; });
+    const double portion = all / rays;
+    if (portion <= 0) return;
+    double passed = 0.5 * portion;
+    for (std::size_t i = 0; i < flux_.size(); ++i) {
+        const Vec3& flux = flux_[i];
+        passed += size(flux);
+        const auto count = static_cast<int>(passed / portion);
+        if (count == 0) continue;
+        passed -= count * portion;
+        const std::uint32_t t = change.texels()[i];
+        const std::uint32_t entry = room.entryOf[t];
+        const std::span<const SurfacePoint> points = coverage.points(room, entry);
+        if (points.empty()) continue;
+        const Vec3 carried = flux * static_cast<float>(portion / size(flux));
+        const Vec2 shift = RandomStream(0, t).next2();
+        for (int k = 0; k < count; ++k) {
+            const SurfacePoint& p = points[static_cast<std::size_t>(k) % points.size()];
+            const RoomTriangle& triangle = room.triangles[p.triangle];
+            const bool front = triangle.charts.front == room.unwrap.texelChart[entry];
+            const Vec3 normal = glm::normalize(front ? triangle.areaVector : -triangle.areaVector);
+            rays_.push_back({positionAt(scene, p.triangle, p.barycentric) + epsilon * normal,
+                             frameFromNormal(normal).toWorld(sampleCosineHemisphere(
+                                 r2Point(static_cast<std::uint32_t>(k), shift)))});
+            carried_.push_back(carried);
+        }
+    }
 }
 
-void ChangeBounce::aim(const Shot& shot, const Scene& scene, float epsilon, const RoomTexels& room,
-                       const Coverage& coverage) {
-    const std::uint32_t entry = room.entryOf[shot.texel];
-    const std::span<const SurfacePoint> points = coverage.points(room, entry);
-    const std::uint32_t chart = room.unwrap.texelChart[entry];
-    const Vec2 shift = RandomStream(0, shot.texel).next2();
-    for (int k = 0; k < shot.rays; ++k) {
-        const SurfacePoint& p = points[static_cast<std::size_t>(k) % points.size()];
-        const RoomTriangle& triangle = room.triangles[p.triangle];
-        const float side = triangle.charts.front == chart ? 1.0f : -1.0f;
-        const Vec3 normal = side * glm::normalize(triangle.areaVector);
-        rays_.push_back({positionAt(scene, p.triangle, p.barycentric) + epsilon * normal,
-                         frameFromNormal(normal).toWorld(sampleCosineHemisphere(
-                             r2Point(static_cast<std::uint32_t>(k), shift)))});
-        carried_.push_back(shot.flux / static_cast<float>(shot.rays));
-    }
-}
-
-void ChangeBounce::shoot(const Scene& scene, const RayScene& rays, const RoomTexels& room,
+void ChangeBounce::shoot(const Scene& scene, const RayScene& roomRays, const RoomTexels& room,
                          const SightObjects& objects) {
     const std::size_t blocks = (rays_.size() + kRaysPerBlock - 1) / kRaysPerBlock;
     if (arrivals_.size() < blocks) arrivals_.resize(blocks);
@@ -62,38 +74,62 @@ void ChangeBounce::shoot(const Scene& scene, const RayScene& rays, const RoomTex
     parallelFor(blocks, 1, [&](std::size_t block) {
         const std::size_t first = block * kRaysPerBlock;
         const std::size_t count = std::min(kRaysPerBlock, rays_.size() - first);
-        SightTracer tracer(scene, rays, room);
+        SightTracer tracer(scene, roomRays, room);
         tracer.setObjects(objects);
         thread_local Sights sights;
         tracer.trace({rays_.data() + first, count}, sights);
         for (std::size_t i = 0; i < count; ++i)
             if (sights.texel[i] != kNoTexel)
-                arrivals_[block].push_back({sights.texel[i], carried_[first + i]});
+                arrivals_[block].push_back(
+                    {sights.texel[i], sights.distance[i], carried_[first + i]});
         for (const Sight& sight : sights.others)
             if (sight.texel != kNoTexel && sight.covered)
                 arrivals_[block].push_back(
-                    {sight.texel, sight.throughput * carried_[first + sight.ray]});
+                    {sight.texel, sight.distance, sight.throughput * carried_[first + sight.ray]});
     });
 }
 
-void ChangeBounce::add(std::span<const TexelChange> sources, const Scene& scene,
-                       const RayScene& rays, const RoomTexels& room, const Coverage& coverage,
-                       const SightObjects& objects, const BounceParams& params,
-                       RoomChange& change) {
-    for (int bounce = 0; bounce < params.bounces; ++bounce) {
-        deal(bounce == 0 ? sources : std::span<const TexelChange>(next_), room, coverage,
-             params.rays);
-        rays_.clear(), carried_.clear(), next_.clear();
-        for (const Shot& shot : shots_) aim(shot, scene, rays.epsilon(), room, coverage);
-        shoot(scene, rays, room, objects);
-        for (const std::vector<Arrival>& block : arrivals_)
-            for (const Arrival& a : block) {
-                const float area = room.area[a.texel] * coverage.uncovered(a.texel);
-                if (area <= 0) continue;
-                next_.push_back({a.texel, a.flux / area});
-                change.add(a.texel, a.flux / area);
+void ChangeBounce::collect(const RoomTexels& room, const Coverage& coverage) {
+    Vec3 again(0);
+    for (const std::vector<Arrival>& block : arrivals_)
+        for (const Arrival& a : block) {
+            again += room.reflectance[a.texel] * a.flux;
+            const std::uint32_t g = room.groupOf[a.texel];
+            const TexelGroup& group = room.groups[g];
+            if (a.distance > kFar * group.bounds.radius) {
+                if (groups_[g] == Vec3(0)) changedGroups_.push_back(g);
+                groups_[g] += a.flux / group.area;
+                continue;
             }
-    }
+            const float area = room.area[a.texel] * coverage.uncovered(a.texel);
+            if (area > 0) near_.push_back({a.texel, a.flux / area});
+        }
+    // A geometric series of bounces between surfaces of the mean reflectance.
+    const Vec3 gain = 1.0f / glm::max(Vec3(0.05f), Vec3(1) - room.meanReflectance);
+    ambient_ = room.totalArea > 0 ? again * gain / room.totalArea : Vec3(0);
+}
+
+void ChangeBounce::clear() {
+    for (const std::uint32_t g : changedGroups_) groups_[g] = Vec3(0);
+    changedGroups_.clear();
+    near_.clear();
+    ambient_ = Vec3(0);
+}
+
+void ChangeBounce::find(const RoomChange& change, const Scene& scene, const RayScene& roomRays,
+                        const RoomTexels& room, const Coverage& coverage,
+                        const SightObjects& objects, int rays) {
+    groups_.resize(room.groups.size(), Vec3(0));
+    clear();
+    aim(change, scene, roomRays.epsilon(), room, coverage, rays);
+    shoot(scene, roomRays, room, objects);
+    collect(room, coverage);
+}
+
+void ChangeBounce::addTo(RoomChange& change, float leastAmbient) const {
+    for (const TexelChange& t : near_) change.add(t.texel, t.irradiance);
+    for (const std::uint32_t g : changedGroups_) change.addToGroup(g, groups_[g]);
+    if (size(ambient_) > leastAmbient) change.addToAll(ambient_);
 }
 
 }  // namespace vlf

@@ -1,7 +1,8 @@
 #pragma once
-// Changed light bounces on: what objects take from a texel or give it, the others get to feel
-// (progressive radiosity on the change alone; Cohen et al., "A progressive refinement approach to
-// fast radiosity image generation", SIGGRAPH 1988).
+// Changed light bounces on: what objects take from the room or give it, all of the room gets to
+// feel. Progressive radiosity on the change alone: a bounce by rays, and an ambient term for what
+// follows (Cohen et al., "A progressive refinement approach to fast radiosity image generation",
+// SIGGRAPH 1988).
 
 #include "vlf/dynamic/coverage.h"
 #include "vlf/dynamic/room_change.h"
@@ -19,44 +20,43 @@ struct TexelChange {
     Vec3 irradiance;
 };
 
-struct BounceParams {
-    int rays = 2048;  ///< a bounce, dealt out by flux
-    int bounces = 1;
-};
-
-/// Sends the light that changed texels reflect to the others, and so on. Keeps its memory.
 class ChangeBounce {
   public:
-    /// Adds to `change` what `sources` make the texels send one another; `change` may have them
-    /// already.
-    void add(std::span<const TexelChange> sources, const Scene& scene, const RayScene& rays,
-             const RoomTexels& room, const Coverage& coverage, const SightObjects& objects,
-             const BounceParams& params, RoomChange& change);
+    static constexpr int kRays = 2048;
+
+    /// Finds what the changes make the texels send to one another: the first bounce by `rays` rays,
+    /// each from a texel picked in proportion to its flux, the rest evenly all over the room.
+    void find(const RoomChange& change, const Scene& scene, const RayScene& roomRays,
+              const RoomTexels& room, const Coverage& coverage, const SightObjects& objects,
+              int rays = kRays);
+
+    /// Adds what was found, the rest only if it is more than `leastAmbient` (luminance, W·m⁻²).
+    void addTo(RoomChange& change, float leastAmbient) const;
+
+    /// Nothing is found.
+    void clear();
 
   private:
-    /// Flux that a texel sends, W, in its share of rays.
-    struct Shot {
-        std::uint32_t texel;
-        Vec3 flux;
-        int rays;
-    };
     struct Arrival {
         std::uint32_t texel;
-        Vec3 flux;
+        float distance;  ///< metres from where it was sent
+        Vec3 flux;       ///< W
     };
 
-    void deal(std::span<const TexelChange> sources, const RoomTexels& room,
-              const Coverage& coverage, int rays);
-    void aim(const Shot& shot, const Scene& scene, float epsilon, const RoomTexels& room,
-             const Coverage& coverage);
-    void shoot(const Scene& scene, const RayScene& rays, const RoomTexels& room,
+    void aim(const RoomChange& change, const Scene& scene, float epsilon, const RoomTexels& room,
+             const Coverage& coverage, int rays);
+    void shoot(const Scene& scene, const RayScene& roomRays, const RoomTexels& room,
                const SightObjects& objects);
+    void collect(const RoomTexels& room, const Coverage& coverage);
 
-    std::vector<Shot> shots_;
+    std::vector<Vec3> flux_;  ///< of the changed texels
     std::vector<Ray> rays_;
-    std::vector<Vec3> carried_;  ///< flux of each ray
+    std::vector<Vec3> carried_;  ///< flux of each ray, W
     std::vector<std::vector<Arrival>> arrivals_;
-    std::vector<TexelChange> next_;
+    std::vector<TexelChange> near_;
+    std::vector<Vec3> groups_;  ///< change of irradiance of all of a group's texels, W·m⁻²
+    std::vector<std::uint32_t> changedGroups_;
+    Vec3 ambient_{0};  ///< of all texels
 };
 
 }  // namespace vlf

@@ -12,7 +12,7 @@ namespace {
 constexpr std::size_t kLinesPerBlock = 32;
 constexpr float kContact = 4;  // ray epsilons: nearer than this a surface is covered
 
-/// What one end of each line of a block sees.
+/// What one end of each line of a block sees of the room.
 struct Views {
     std::vector<Ray> rays;
     Sights sights;
@@ -31,16 +31,15 @@ struct Views {
     }
 };
 
-/// Memory of one thread's block.
+/// Memory of a thread.
 struct Scratch {
-    Views forward, backward;
-    std::vector<float> length, weight;  ///< of the lines: within the object, m; flux a radiance
+    Views forward, backward;            ///< from entries along the lines, from exits against them
+    std::vector<float> length, weight;  ///< of the lines: within the object, m; flux per radiance
+    std::vector<Vec3> shown, reflectance;  ///< by a mirror at an end, radiance
+    std::vector<std::uint32_t> mirrors;
+    std::vector<Ray> reflected;
     std::vector<InstanceHit> hits;
-
-    void clear() {
-        forward.rays.clear(), backward.rays.clear();
-        length.clear(), weight.clear();
-    }
+    Sights sights;
 };
 
 void findHidden(const SightObjects& objects, std::vector<InstanceHit>& hits, Views& views) {
@@ -54,73 +53,131 @@ void findHidden(const SightObjects& objects, std::vector<InstanceHit>& hits, Vie
 
 }  // namespace
 
-void DeltaLines::trace(const ObjectLines& lines, const Pose& pose, const Scene& scene,
-                       const RayScene& rays, const RoomTexels& room, const SightObjects& objects,
-                       const Coverage& coverage, std::span<const Vec3> texelRadiance) {
-    const std::size_t blocks = (lines.directions.size() + kLinesPerBlock - 1) / kLinesPerBlock;
-    blocks_.resize(blocks);
-    const float epsilon = kContact * rays.epsilon();
-    const float area = lines.cellArea * pose.scale * pose.scale;
-    parallelFor(blocks, 1, [&](std::size_t block) {
-        thread_local Scratch s;
-        s.clear();
-        const std::size_t end = std::min(lines.directions.size(), (block + 1) * kLinesPerBlock);
-        const std::uint32_t first = lines.firstCell[block * kLinesPerBlock];
-        for (std::size_t k = block * kLinesPerBlock; k < end; ++k) {
-            const Vec3 direction = pose.direction(lines.directions[k]);
-            for (std::uint32_t c = lines.firstCell[k]; c < lines.firstCell[k + 1]; ++c) {
-                const Vec3 entry = pose.point(lines.entries[c].point);
-                const Vec3 exit = pose.point(lines.exits[c].point);
-                s.forward.rays.push_back({entry + epsilon * direction, direction});
-                s.backward.rays.push_back({exit - epsilon * direction, -direction});
-                s.length.push_back(glm::dot(exit - entry, direction));
-                s.weight.push_back(lines.weights[k] * area);
+/// Some of the lines.
+class DeltaLines::Block {
+  public:
+    Block(const ObjectLines& lines, const ObjectMesh& mesh, const Pose& pose, const LitRoom& room,
+          const SightObjects& objects, const Coverage& coverage, Scratch& scratch)
+        : lines_(lines),
+          mesh_(mesh),
+          pose_(pose),
+          room_(room),
+          objects_(objects),
+          coverage_(coverage),
+          s_(scratch),
+          tracer_(room.scene, room.rays, room.texels),
+          epsilon_(kContact * room.rays.epsilon()) {}
+
+    void trace(std::size_t firstLine, std::size_t lastLine, std::vector<End>& ends) {
+        first_ = lines_.firstCell[firstLine];
+        castRays(firstLine, lastLine);
+        for (Views* views : {&s_.forward, &s_.backward}) {
+            views->look(tracer_, room_.radiance);
+            findHidden(objects_, s_.hits, *views);
+        }
+        ends.clear();
+        addEnds(s_.forward, s_.backward, lines_.exits, ends);
+        addEnds(s_.backward, s_.forward, lines_.entries, ends);
+    }
+
+  private:
+    void castRays(std::size_t firstLine, std::size_t lastLine) {
+        s_.forward.rays.clear(), s_.backward.rays.clear(), s_.length.clear(), s_.weight.clear();
+        const float area = lines_.cellArea * pose_.scale * pose_.scale;
+        for (std::size_t k = firstLine; k < lastLine; ++k) {
+            const Vec3 direction = pose_.direction(lines_.directions[k]);
+            for (std::uint32_t c = lines_.firstCell[k]; c < lines_.firstCell[k + 1]; ++c) {
+                const Vec3 entry = pose_.point(lines_.entries[c].point);
+                const Vec3 exit = pose_.point(lines_.exits[c].point);
+                s_.forward.rays.push_back({entry + epsilon_ * direction, direction});
+                s_.backward.rays.push_back({exit - epsilon_ * direction, -direction});
+                s_.length.push_back(glm::dot(exit - entry, direction));
+                s_.weight.push_back(lines_.weights[k] * area);
             }
         }
-        SightTracer tracer(scene, rays, room);
-        for (Views* views : {&s.forward, &s.backward}) {
-            views->look(tracer, texelRadiance);
-            findHidden(objects, s.hits, *views);
+    }
+
+    /// What the object's mirrors show of the room at the ends that `seen` looks out from.
+    void findShown(const Views& seen, const std::vector<LineEnd>& objectEnds) {
+        const Scene& scene = mesh_.scene;
+        s_.shown.assign(seen.rays.size(), Vec3(0));
+        s_.mirrors.clear(), s_.reflected.clear(), s_.reflectance.clear();
+        for (std::uint32_t i = 0; i < seen.rays.size(); ++i) {
+            const LineEnd& end = objectEnds[first_ + i];
+            const Material& material = scene.material(end.triangle);
+            if (!material.isMirror()) continue;
+            Vec3 side = pose_.direction(geometricNormal(scene, end.triangle));
+            Vec3 normal = pose_.direction(shadingNormalAt(scene, end.triangle, end.barycentric));
+            const Vec3 incoming = -seen.rays[i].direction;
+            if (glm::dot(side, incoming) > 0) side = -side;
+            if (glm::dot(normal, side) < 0) normal = -normal;
+            const Vec3 out = glm::reflect(incoming, normal);
+            if (glm::dot(out, side) <= 0) continue;
+            s_.mirrors.push_back(i);
+            s_.reflected.push_back({pose_.point(end.point) + epsilon_ * side, out});
+            s_.reflectance.push_back(
+                mirrorReflectance(scene, material, uvAt(scene, end.triangle, end.barycentric)));
         }
-        std::vector<End>& ends = blocks_[block];
-        ends.clear();
-        const auto addEnds = [&](const Views& seen, const Views& lost,
-                                 const std::vector<LineEnd>& objectEnds) {
-            const auto add = [&](std::size_t i, std::uint32_t texel, float distance,
-                                 const Vec3& throughput) {
-                // Another object hides this one.
-                if (seen.hidden[i] < distance) return;
-                const float seenArea = room.area[texel] * coverage.uncovered(texel);
-                if (seenArea > 0)
-                    ends.push_back({texel, objectEnds[first + i].receiver, lost.radiance[i],
-                                    s.weight[i] / seenArea * throughput});
-            };
-            for (std::size_t i = 0; i < seen.rays.size(); ++i)
-                if (seen.sights.texel[i] != kNoTexel &&
-                    seen.sights.distance[i] >= s.length[i] + epsilon)  // else covered
-                    add(i, seen.sights.texel[i], seen.sights.distance[i], Vec3(1));
-            for (const Sight& sight : seen.sights.others)
-                if (sight.texel != kNoTexel && sight.covered &&
-                    (sight.inMirror || sight.distance >= s.length[sight.ray] + epsilon))
-                    add(sight.ray, sight.texel, sight.distance, sight.throughput);
+        if (s_.mirrors.empty()) return;
+        tracer_.trace(s_.reflected, s_.sights);
+        for (std::size_t k = 0; k < s_.mirrors.size(); ++k)
+            if (s_.sights.texel[k] != kNoTexel)
+                s_.shown[s_.mirrors[k]] += s_.reflectance[k] * room_.radiance[s_.sights.texel[k]];
+        for (const Sight& sight : s_.sights.others)
+            s_.shown[s_.mirrors[sight.ray]] += s_.reflectance[sight.ray] * sight.throughput *
+                                               diffuseRadiance(sight, room_.radiance, {});
+    }
+
+    void addEnds(const Views& seen, const Views& lost, const std::vector<LineEnd>& objectEnds,
+                 std::vector<End>& ends) {
+        findShown(seen, objectEnds);
+        const auto add = [&](std::size_t i, std::uint32_t texel, float distance, bool inMirror,
+                             const Vec3& throughput) {
+            const bool covered = !inMirror && distance < s_.length[i] + epsilon_;
+            if (covered || seen.hidden[i] < distance) return;
+            const float area = room_.texels.area[texel] * coverage_.uncovered(texel);
+            if (area > 0)
+                ends.push_back({texel, objectEnds[first_ + i].receiver,
+                                lost.radiance[i] - s_.shown[i], s_.weight[i] / area * throughput});
         };
-        addEnds(s.forward, s.backward, lines.exits);
-        addEnds(s.backward, s.forward, lines.entries);
+        for (std::size_t i = 0; i < seen.rays.size(); ++i)
+            if (seen.sights.texel[i] != kNoTexel)
+                add(i, seen.sights.texel[i], seen.sights.distance[i], false, Vec3(1));
+        for (const Sight& sight : seen.sights.others)
+            if (sight.texel != kNoTexel && sight.covered)
+                add(sight.ray, sight.texel, sight.distance, sight.inMirror, sight.throughput);
+    }
+
+    const ObjectLines& lines_;
+    const ObjectMesh& mesh_;
+    const Pose& pose_;
+    const LitRoom& room_;
+    const SightObjects& objects_;
+    const Coverage& coverage_;
+    Scratch& s_;
+    SightTracer tracer_;
+    float epsilon_;
+    std::uint32_t first_ = 0;  ///< cell of the block
+};
+
+void DeltaLines::trace(const ObjectLines& lines, const ObjectMesh& mesh, const Pose& pose,
+                       const LitRoom& room, const SightObjects& objects, const Coverage& coverage) {
+    const std::size_t blocks = (lines.directions.size() + kLinesPerBlock - 1) / kLinesPerBlock;
+    blocks_.resize(blocks);
+    parallelFor(blocks, 1, [&](std::size_t b) {
+        thread_local Scratch scratch;
+        const std::size_t end = std::min(lines.directions.size(), (b + 1) * kLinesPerBlock);
+        Block(lines, mesh, pose, room, objects, coverage, scratch)
+            .trace(b * kLinesPerBlock, end, blocks_[b]);
     });
 }
 
-void DeltaLines::addTo(std::span<Vec3> change, std::span<std::uint8_t> touched,
-                       std::vector<std::uint32_t>& texels,
-                       std::span<const Vec3> ownRadiance) const {
+void DeltaLines::addTo(RoomChange& change, std::span<const Vec3> ownRadiance) const {
     for (const std::vector<End>& block : blocks_)
         for (const End& end : block) {
             const Vec3 own =
                 end.receiver == ObjectReceivers::kNone ? Vec3(0) : ownRadiance[end.receiver];
-            change[end.texel] += end.gain * (own - end.lost);
-            if (!touched[end.texel]) {
-                touched[end.texel] = 1;
-                texels.push_back(end.texel);
-            }
+            change.add(end.texel, end.gain * (own - end.lost));
         }
 }
 

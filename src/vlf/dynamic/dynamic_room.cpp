@@ -1,12 +1,10 @@
 #include "vlf/dynamic/dynamic_room.h"
 
 #include "vlf/base/error.h"
-#include "vlf/dynamic/change_bounce.h"
-#include "vlf/dynamic/object_light.h"
-#include "vlf/dynamic/room_change.h"
-#include "vlf/dynamic/soft_shadow.h"
+#include "vlf/dynamic/light_exchange.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 namespace vlf {
@@ -14,30 +12,33 @@ namespace vlf {
 namespace {
 
 constexpr int kMaxLines = 513;
-constexpr int kRounds = 2;
-constexpr int kShadowSamples = 4;  // for each of an object's own
+constexpr std::size_t kMaxMirrors = 16;
+/// An object that seems smaller than this from another (radius by distance) does not matter to it.
+constexpr float kNoticed = 0.02f;
+
+void require(bool ok, const DynamicObject& object, const std::string& what) {
+    if (!ok) throw InputError("the object '" + object.name + "' " + what);
+}
 
 void check(const DynamicObject& object) {
-    if (!object.model) throw InputError("an object needs a model");
-    if (!isValid(object.pose))
-        throw InputError("the object '" + object.name +
-                         "' has a pose that is no pose: finite numbers, a scale above zero and a "
-                         "rotation of length one are needed");
-}
-
-Vec3 meanIrradiance(const RoomTexels& room, const IrradianceAtlas& atlas) {
-    glm::dvec3 sum(0);
-    double area = 0;
-    for (const std::uint32_t t : room.unwrap.texels) {
-        sum += glm::dvec3(atlas.irradiance[t]) * static_cast<double>(room.area[t]);
-        area += room.area[t];
-    }
-    return area > 0 ? Vec3(sum / area) : Vec3(0);
-}
-
-bool castsSoftShadow(const DynamicObject& object) {
-    return object.settings.shadow == ShadowKind::soft ||
-           object.settings.shadow == ShadowKind::field;
+    const ObjectSettings& s = object.settings;
+    require(object.model != nullptr, object, "has no model");
+    require(isValid(object.pose), object,
+            "has a pose that is none: it takes finite numbers, a scale above zero and a rotation "
+            "of length one");
+    require(s.directSamples >= 1 && s.directSamples <= 1024, object,
+            "needs from 1 to 1024 samples of direct light");
+    require(s.gather.subdivision >= 0 && s.gather.subdivision <= ObjectModel::kMaxSubdivision,
+            object, "can be subdivided from 0 to 3 times");
+    require(s.gather.step >= 1, object, "takes every step-th direction: the step is 1 or more");
+    require(std::isfinite(s.gather.texelSize) && s.gather.texelSize >= 0, object,
+            "needs texels of a size above 0 m, or of 0 for one that suits it");
+    require(s.prt.order >= 1 && s.prt.order <= 5, object,
+            "can have spherical harmonics of order 1 to 5");
+    require(s.hard.mapSize >= 16 && s.hard.mapSize <= 8192, object,
+            "can have a shadow map of 16 to 8192 texels");
+    require(s.hard.opacity >= 0 && s.hard.opacity <= 1, object,
+            "can have a shadow of an opacity from 0 to 1");
 }
 
 }  // namespace
@@ -46,126 +47,102 @@ struct DynamicRoom::Impl {
     struct Entry {
         DynamicObject object;
         std::unique_ptr<ObjectLight> light = std::make_unique<ObjectLight>();
-        bool unprepared = true;
+        bool unprepared = true, changed = true;
+        bool stale = true;  ///< has not looked about since something changed
+        Sphere sphere;      ///< around it in the update before
     };
 
-    Impl(const Scene& s, const RayScene& r, const LightField& f)
-        : scene(s),
-          roomRays(r),
-          field(f),
-          room(makeRoomTexels(s, r, f)),
-          change(room),
-          coverage(room) {
-        setRoomLight(f.atlas);
+    Impl(const Scene& s, const RayScene& rays, const LightField& f)
+        : scene(s), field(f), exchange(s, rays, f) {}
+
+    static Sphere sphereOf(const DynamicObject& object) {
+        const Sphere& bounds = object.model->bounds();
+        // Light from one that emits is noticed everywhere.
+        const float radius = object.model->emits() ? std::numeric_limits<float>::infinity()
+                                                   : object.pose.scale * bounds.radius;
+        return {object.pose.point(bounds.centre), radius};
     }
 
-    void setRoomLight(const IrradianceAtlas& atlas) {
-        roomLight = atlas;
-        light = atlas;
-        roomRadiance.assign(atlas.irradiance.size(), Vec3(0));
-        for (const std::uint32_t t : room.unwrap.texels)
-            roomRadiance[t] = room.reflectance[t] * atlas.irradiance[t] / kPi;
-        radiance = roomRadiance;
-        mean = meanIrradiance(room, atlas);
-        ++lightVersion;
+    void prepare() {
+        const float cell = 2 * field.frame.radius / static_cast<float>(field.record.cells);
+        for (Entry& entry : entries)
+            if (entry.object.visible && std::exchange(entry.unprepared, false))
+                entry.light->prepare(entry.object, plans,
+                                     std::min(field.record.directions, kMaxLines), cell);
     }
 
-    /// The visible objects, where they are.
-    void place() {
-        std::vector<RayInstance> instances;
-        lit.clear(), numbers.clear(), spheres.clear(), casters.clear(), allSpheres.clear();
+    /// Which objects have changed, or have one near by that has.
+    void findStale() {
+        std::vector<Sphere> disturbances;
+        for (Entry& entry : entries) {
+            if (!entry.changed) continue;
+            disturbances.push_back(entry.sphere);
+            entry.sphere = sphereOf(entry.object);
+            disturbances.push_back(entry.sphere);
+            entry.changed = false;
+            entry.stale = true;
+        }
+        for (Entry& entry : entries)
+            entry.stale =
+                entry.stale || allStale || entry.light->misses(entry.object, viewers) ||
+                std::any_of(disturbances.begin(), disturbances.end(), [&](const Sphere& d) {
+                    return d.radius > kNoticed * glm::distance(d.centre, entry.sphere.centre);
+                });
+        allStale = false;
+    }
+
+    void update() {
+        prepare();
+        findStale();
+        std::vector<Body> bodies;
+        numbers.clear();
         for (std::size_t i = 0; i < entries.size(); ++i) {
             Entry& entry = entries[i];
-            const DynamicObject& object = entry.object;
-            if (!object.visible) continue;
-            if (std::exchange(entry.unprepared, false))
-                entry.light->prepare(
-                    object, plans, std::min(field.record.directions, kMaxLines),
-                    2 * field.frame.radius / static_cast<float>(field.record.cells));
+            if (!entry.object.visible) continue;
+            bodies.push_back({&entry.object, entry.light.get(), std::exchange(entry.stale, false)});
             numbers.push_back(i);
-            lit.push_back(entry.light->lit());
-            lit.back().pose = object.pose;
-            instances.push_back({&lit.back().mesh->rays, object.pose});
-            const Sphere& bounds = object.model->bounds();
-            allSpheres.push_back(
-                {object.pose.point(bounds.centre), object.pose.scale * bounds.radius});
-            if (castsSoftShadow(object)) {
-                spheres.push_back(allSpheres.back());
-                casters.push_back(instances.back());
-            }
         }
-        rays.place(instances);
-        casterRays.place(casters);
-    }
-
-    Surroundings surroundings() const {
-        return {scene, roomRays, room, roomRadiance, radiance, rays, lit, coverage, mean};
-    }
-
-    /// Light goes back and forth between room and objects.
-    void exchange() {
-        change.clear();
-        change.apply(room, roomLight, light, radiance);
-        const Surroundings around = surroundings();
-        coverage.find(scene, roomRays, room, rays, lit, allSpheres);
-        for (std::uint32_t i = 0; i < lit.size(); ++i)
-            entries[numbers[i]].light->look(entries[numbers[i]].object, around, i);
-        const TexelLoss loss = spheres.empty() ? TexelLoss{}
-                                               : findSoftShadows(scene, roomRays, room, coverage,
-                                                                 spheres, occluderOf(casterRays),
-                                                                 kShadowSamples * shadowSamples());
-        shadows.clear();
-        for (std::size_t i = 0; i < loss.entries.size(); ++i)
-            if (loss.loss[i] != Vec3(0))
-                shadows.push_back({room.unwrap.texels[loss.entries[i]], -loss.loss[i]});
-        for (int round = 0; round < kRounds; ++round) {
-            change.clear();
-            for (const TexelChange& t : shadows) change.add(t.texel, t.irradiance);
-            for (std::uint32_t i = 0; i < lit.size(); ++i) {
-                ObjectLight& onObject = *entries[numbers[i]].light;
-                onObject.find(entries[numbers[i]].object, around);
-                onObject.addChange(change.change, change.touched, change.texels);
-            }
-            if (round + 1 == kRounds && !shadows.empty())
-                bounce.add(shadows, scene, roomRays, room, coverage, {&rays, lit, kNoObject}, {},
-                           change);
-            change.apply(room, roomLight, light, radiance);
-        }
-        coverage.fill(room, light);
-        for (std::size_t i = 0; i < lit.size(); ++i) lit[i] = entries[numbers[i]].light->lit();
+        exchange.run(bodies, viewers);
         ++lightVersion;
     }
 
-    int shadowSamples() const {
-        int most = 1;
-        for (const std::size_t i : numbers)
-            most = std::max(most, entries[i].object.settings.directSamples);
-        return most;
+    /// Objects have other numbers than before.
+    void renumbered() { allStale = changed = true; }
+
+    Entry& change(std::size_t i) {
+        changed = entries[i].changed = true;
+        return entries[i];
+    }
+
+    /// The eyes and their images in the room's mirrors; none where those are curved or many, which
+    /// means: from anywhere.
+    std::vector<Vec3> withImages(std::span<const Vec3> eyes) const {
+        std::vector<Vec3> all(eyes.begin(), eyes.end());
+        const RoomTexels& texels = exchange.texels();
+        std::size_t mirrors = 0;
+        for (std::size_t c = 0; c < field.charts.size(); ++c) {
+            const Chart& chart = field.charts[c];
+            if (!scene.materials[chart.material].isMirror()) continue;
+            if (!texels.sources.planarMirror[c] || ++mirrors > kMaxMirrors) return {};
+            for (const Vec3& eye : eyes) {
+                const float height = glm::dot(chart.normal, eye) - texels.sources.mirrorOffset[c];
+                if (height > 0) all.push_back(eye - 2 * height * chart.normal);
+            }
+        }
+        return all;
     }
 
     const Scene& scene;
-    const RayScene& roomRays;
     const LightField& field;
-    RoomTexels room;
-    IrradianceAtlas roomLight, light;
-    std::vector<Vec3> roomRadiance, radiance;  ///< diffuse, leaving the texels
-    Vec3 mean{0};
-    std::uint64_t lightVersion = 0;
-    std::vector<Entry> entries;
     ObjectPlans plans;
-    std::vector<LitObject> lit;
+    LightExchange exchange;
+    std::vector<Entry> entries;
     std::vector<std::size_t> numbers;
-    RayInstances rays, casterRays;  ///< of all; of those whose shadows are sampled
-    std::vector<RayInstance> casters;
-    std::vector<Sphere> spheres;  ///< around the casters
-    RoomChange change;
-    Coverage coverage;
-    std::vector<TexelChange> shadows;
-    ChangeBounce bounce;
-    std::vector<Sphere> allSpheres;  ///< around the lit objects
-    PointLighting points;
-    bool changed = false;
+    std::vector<Vec3> viewers;
+    std::uint64_t lightVersion = 0;
+    bool changed = false, allStale = false;
 };
+
 DynamicRoom::DynamicRoom(const Scene& scene, const RayScene& rays, const LightField& field)
     : impl_(std::make_unique<Impl>(scene, rays, field)) {}
 DynamicRoom::~DynamicRoom() = default;
@@ -182,80 +159,100 @@ const DynamicObject& DynamicRoom::object(std::size_t i) const {
 void DynamicRoom::add(DynamicObject object) {
     check(object);
     impl_->entries.emplace_back().object = std::move(object);
-    impl_->changed = true;
+    impl_->renumbered();
 }
 
 void DynamicRoom::remove(std::size_t i) {
     impl_->entries.erase(impl_->entries.begin() + static_cast<std::ptrdiff_t>(i));
-    impl_->changed = true;
+    impl_->renumbered();
 }
 
 void DynamicRoom::setPose(std::size_t i, const Pose& pose) {
-    Impl::Entry& entry = impl_->entries[i];
-    if (entry.object.pose == pose) return;
-    DynamicObject moved = entry.object;
+    const DynamicObject& object = impl_->entries[i].object;
+    if (object.pose == pose) return;
+    DynamicObject moved = object;
     moved.pose = pose;
     check(moved);
+    Impl::Entry& entry = impl_->change(i);
+    // What is made for an object depends on its scale.
     entry.unprepared = entry.unprepared || pose.scale != entry.object.pose.scale;
     entry.object.pose = pose;
-    impl_->changed = true;
 }
 
 void DynamicRoom::setSettings(std::size_t i, const ObjectSettings& settings) {
-    Impl::Entry& entry = impl_->entries[i];
-    if (entry.object.settings == settings) return;
+    const DynamicObject& object = impl_->entries[i].object;
+    if (object.settings == settings) return;
+    DynamicObject other = object;
+    other.settings = settings;
+    check(other);
+    Impl::Entry& entry = impl_->change(i);
     entry.object.settings = settings;
-    entry.unprepared = impl_->changed = true;
+    entry.unprepared = true;
 }
 
 void DynamicRoom::setModel(std::size_t i, std::shared_ptr<const ObjectModel> model) {
-    impl_->entries[i].object.model = std::move(model);
-    impl_->entries[i].unprepared = impl_->changed = true;
+    DynamicObject other = impl_->entries[i].object;
+    other.model = model;
+    check(other);
+    Impl::Entry& entry = impl_->change(i);
+    entry.object.model = std::move(model);
+    entry.unprepared = true;
 }
 
 void DynamicRoom::setVisible(std::size_t i, bool visible) {
     if (impl_->entries[i].object.visible == visible) return;
     impl_->entries[i].object.visible = visible;
-    impl_->changed = true;
+    impl_->renumbered();
 }
 
-void DynamicRoom::setViewers(std::span<const Vec3>) {}
+void DynamicRoom::setViewers(std::span<const Vec3> eyes) {
+    impl_->viewers = impl_->withImages(eyes);
+    impl_->changed =
+        impl_->changed ||
+        std::any_of(impl_->entries.begin(), impl_->entries.end(), [&](const Impl::Entry& entry) {
+            return entry.object.visible && entry.light->misses(entry.object, impl_->viewers);
+        });
+}
 
 void DynamicRoom::setRoomIrradiance(const IrradianceAtlas& atlas) {
-    impl_->setRoomLight(atlas);
-    impl_->changed = true;
+    impl_->exchange.setRoomLight(atlas);
+    impl_->renumbered();
+    ++impl_->lightVersion;
 }
 
 bool DynamicRoom::update() {
     if (!std::exchange(impl_->changed, false)) return false;
-    impl_->place();
-    impl_->exchange();
+    impl_->update();
     return true;
 }
 
 std::span<const LitObject> DynamicRoom::litObjects() const {
-    return impl_->lit;
+    return impl_->exchange.lit();
 }
 std::span<const std::size_t> DynamicRoom::litNumbers() const {
     return impl_->numbers;
 }
 const RayInstances& DynamicRoom::rays() const {
-    return impl_->rays;
+    return impl_->exchange.rays();
 }
 const IrradianceAtlas& DynamicRoom::irradiance() const {
-    return impl_->light;
+    return impl_->exchange.light();
 }
 const IrradianceAtlas& DynamicRoom::roomIrradiance() const {
-    return impl_->roomLight;
+    return impl_->exchange.roomLight();
 }
 std::uint64_t DynamicRoom::irradianceVersion() const {
     return impl_->lightVersion;
 }
 const PointLighting& DynamicRoom::pointLighting() const {
-    return impl_->points;
+    return impl_->exchange.pointLighting();
 }
 const PointLight* DynamicRoom::hardShadowLight() const {
-    return impl_->points.lights.empty() ? nullptr : &impl_->points.lights.front();
+    const PointLighting& points = impl_->exchange.pointLighting();
+    return points.lights.empty() ? nullptr : &points.lights.front();
+}
+const UpdateTimes& DynamicRoom::updateTimes() const {
+    return impl_->exchange.times();
 }
 const Scene& DynamicRoom::scene() const {
     return impl_->scene;

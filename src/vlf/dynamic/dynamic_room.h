@@ -4,6 +4,7 @@
 #include "vlf/dynamic/lit_object.h"
 #include "vlf/dynamic/object.h"
 #include "vlf/dynamic/point_lights.h"
+#include "vlf/dynamic/update_times.h"
 #include "vlf/field/light_field.h"
 #include "vlf/trace/ray_instances.h"
 
@@ -34,8 +35,8 @@ class DynamicRoom {
     void setModel(std::size_t i, std::shared_ptr<const ObjectModel> model);
     void setVisible(std::size_t i, bool visible);
 
-    /// From where objects are seen: light need not be known elsewhere
-    /// (GatherSettings::onlyVisible). None: from anywhere.
+    /// From where objects are seen, straight or in mirrors of the room: light need not be known
+    /// elsewhere (GatherSettings::onlyVisible). None: from anywhere.
     void setViewers(std::span<const Vec3> eyes);
 
     /// The room's own light is another one, of the same charts.
@@ -56,11 +57,15 @@ class DynamicRoom {
     const IrradianceAtlas& roomIrradiance() const;
     std::uint64_t irradianceVersion() const;
 
+    /// Known once an object is shaded by them or casts a hard shadow; else empty.
     const PointLighting& pointLighting() const;
 
     /// How irradiance in the room is changed by `hard` shadows is not in irradiance(): renderers
     /// lay them over, of every lit object whose settings say so, away from this light.
     const PointLight* hardShadowLight() const;
+
+    /// Of the last update that found something changed.
+    const UpdateTimes& updateTimes() const;
 
     const Scene& scene() const;
     const LightField& field() const;

@@ -1,7 +1,9 @@
 #include "vlf/dynamic/gather_plan.h"
 
 #include "vlf/base/parallel.h"
+#include "vlf/dynamic/turned_set.h"
 #include "vlf/field/direction_set.h"
+#include "vlf/math/sampling.h"
 
 #include <algorithm>
 #include <map>
@@ -18,7 +20,7 @@ constexpr std::size_t kDirectionsPerBlock = 8;
 
 /// What one direction contributes to the plan.
 struct DirectionPart {
-    std::vector<Vec3> launches;
+    std::vector<std::uint32_t> launches;                               ///< receivers
     std::vector<std::pair<std::uint32_t, GatherPlan::Entry>> entries;  ///< by receiver
 };
 
@@ -72,7 +74,7 @@ void launchFromClusters(const ObjectReceivers& receivers, const Clusters& cluste
     for (std::size_t c = 0; c < best.size(); ++c) {
         if (best[c] == ObjectReceivers::kNone) continue;
         launch[c] = static_cast<std::uint32_t>(part.launches.size());
-        part.launches.push_back(receivers.position[best[c]]);
+        part.launches.push_back(best[c]);
     }
     for (const std::uint32_t r : open) launchOf.push_back(launch[clusters.of[r]]);
 }
@@ -113,7 +115,7 @@ DirectionPart planDirection(const ObjectReceivers& receivers, const Clusters& cl
     } else {
         for (const std::uint32_t r : open) {
             launchOf.push_back(static_cast<std::uint32_t>(part.launches.size()));
-            part.launches.push_back(receivers.position[r]);
+            part.launches.push_back(r);
         }
     }
     for (std::size_t i = 0; i < open.size(); ++i) add(open[i], launchOf[i]);
@@ -121,11 +123,16 @@ DirectionPart planDirection(const ObjectReceivers& receivers, const Clusters& cl
 }
 
 /// Puts the directions' parts together, entries by receiver.
-void assemble(const std::vector<DirectionPart>& parts, std::size_t receivers, GatherPlan& plan) {
+void assemble(const std::vector<DirectionPart>& parts, const std::vector<Vec3>& positions,
+              GatherPlan& plan) {
+    const std::size_t receivers = positions.size();
     plan.firstLaunch.assign(1, 0);
     plan.firstEntry.assign(receivers + 1, 0);
     for (const DirectionPart& part : parts) {
-        plan.launches.insert(plan.launches.end(), part.launches.begin(), part.launches.end());
+        for (const std::uint32_t r : part.launches) {
+            plan.launches.push_back(positions[r]);
+            plan.launchReceiver.push_back(r);
+        }
         plan.firstLaunch.push_back(static_cast<std::uint32_t>(plan.launches.size()));
         for (const auto& [receiver, entry] : part.entries) ++plan.firstEntry[receiver + 1];
     }
@@ -144,10 +151,11 @@ void assemble(const std::vector<DirectionPart>& parts, std::size_t receivers, Ga
 GatherPlan makeGatherPlan(const ObjectReceivers& receivers, const Sphere& bounds,
                           const GatherPlanParams& params) {
     const DirectionSet set(params.lines);
+    const Mat3 turn = sampleUniformRotation(kTurn);
     GatherPlan plan;
     std::vector<float> weights;
     for (int d = 0; d < set.directionCount(); d += params.step) {
-        plan.directions.push_back(set.direction(static_cast<std::uint32_t>(d)));
+        plan.directions.push_back(turn * set.direction(static_cast<std::uint32_t>(d)));
         weights.push_back(set.weight(static_cast<std::uint32_t>(d)));
     }
     Clusters clusters;
@@ -159,33 +167,37 @@ GatherPlan makeGatherPlan(const ObjectReceivers& receivers, const Sphere& bounds
     parallelFor(parts.size(), 4, [&](std::size_t d) {
         parts[d] = planDirection(receivers, clusters, plan.directions[d], weights[d]);
     });
-    assemble(parts, receivers.size(), plan);
+    assemble(parts, receivers.position, plan);
     return plan;
 }
 
-void GatherSights::trace(const GatherPlan& plan, const Pose& pose, const Scene& scene,
-                         const RayScene& rays, const RoomTexels& room, const SightObjects& objects,
-                         const Coverage& coverage, bool emission) {
+void GatherSights::trace(const GatherPlan& plan, const Pose& pose, const LitRoom& room,
+                         const SightObjects& objects, const Coverage& coverage,
+                         std::span<const std::uint8_t> wanted, bool emission) {
+    wanted_.assign(wanted.begin(), wanted.end());
     const std::size_t count = plan.launches.size();
-    texel_.resize(count);
-    valid_.resize(count);
+    texel_.assign(count, kNoTexel);
+    valid_.assign(count, 0);
     const std::size_t blocks =
         (plan.directions.size() + kDirectionsPerBlock - 1) / kDirectionsPerBlock;
     others_.resize(blocks);
     parallelFor(blocks, 2, [&](std::size_t block) {
         const std::size_t end = std::min(plan.directions.size(), (block + 1) * kDirectionsPerBlock);
-        const std::uint32_t first = plan.firstLaunch[block * kDirectionsPerBlock];
         thread_local std::vector<Ray> queue;
+        thread_local std::vector<std::uint32_t> launchOf;
         thread_local Sights sights;
-        queue.clear();
+        queue.clear(), launchOf.clear();
         for (std::size_t d = block * kDirectionsPerBlock; d < end; ++d) {
             const Vec3 direction = pose.direction(plan.directions[d]);
             // From just within the object: what touches it is seen.
-            const Vec3 back = -kContact * rays.epsilon() * direction;
-            for (std::uint32_t i = plan.firstLaunch[d]; i < plan.firstLaunch[d + 1]; ++i)
+            const Vec3 back = -kContact * room.rays.epsilon() * direction;
+            for (std::uint32_t i = plan.firstLaunch[d]; i < plan.firstLaunch[d + 1]; ++i) {
+                if (!wants(plan.launchReceiver[i])) continue;
                 queue.push_back({pose.point(plan.launches[i]) + back, direction});
+                launchOf.push_back(i);
+            }
         }
-        SightTracer tracer(scene, rays, room);
+        SightTracer tracer(room.scene, room.rays, room.texels);
         tracer.setObjects(objects);
         tracer.trace(queue, sights);
         // What an object lies on is dark, and it is not known how dark.
@@ -194,16 +206,16 @@ void GatherSights::trace(const GatherPlan& plan, const Pose& pose, const Scene& 
         };
         for (std::size_t i = 0; i < queue.size(); ++i) {
             const bool dark = isDark(sights.texel[i]);
-            texel_[first + i] = dark ? kNoTexel : sights.texel[i];
-            valid_[first + i] = !dark && !sights.within[i];
+            texel_[launchOf[i]] = dark ? kNoTexel : sights.texel[i];
+            valid_[launchOf[i]] = !dark && !sights.within[i];
         }
         others_[block].clear();
         for (const Sight& sight : sights.others) {
             if (isDark(sight.texel)) {
-                if (!sight.inMirror) valid_[first + sight.ray] = 0;
+                if (!sight.inMirror) valid_[launchOf[sight.ray]] = 0;
                 continue;
             }
-            others_[block].push_back({first + sight.ray, sight});
+            others_[block].push_back({launchOf[sight.ray], sight});
             if (sight.emissionApart && !emission) others_[block].back().sight.emission = Vec3(0);
         }
     });
@@ -231,6 +243,7 @@ void GatherSights::gather(const GatherPlan& plan, const ObjectReceivers& receive
     for (std::size_t r = 0; r < receivers.size(); ++r)
         ownRadiance_[r] = receivers.reflectance[r] * own[r] / kPi;
     parallelFor(receivers.size(), 16, [&](std::size_t r) {
+        if (!wants(r)) return;
         Vec4 sum(0);
         for (std::uint32_t e = plan.firstEntry[r]; e < plan.firstEntry[r + 1]; ++e) {
             const GatherPlan::Entry& entry = plan.entries[e];

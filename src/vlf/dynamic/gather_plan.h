@@ -11,6 +11,7 @@
 // direction, the ray of the one in their middle.
 
 #include "vlf/dynamic/coverage.h"
+#include "vlf/dynamic/lit_room.h"
 #include "vlf/dynamic/object_receivers.h"
 #include "vlf/dynamic/sight.h"
 
@@ -36,10 +37,11 @@ struct GatherPlan {
     };
     static constexpr std::uint32_t kSelf = 1u << 31;
 
-    std::vector<Vec3> directions;            ///< oriented, unit
-    std::vector<std::uint32_t> firstLaunch;  ///< launches of direction d: firstLaunch[d] on
-    std::vector<Vec3> launches;              ///< points on the object
-    std::vector<std::uint32_t> firstEntry;   ///< entries of receiver r: firstEntry[r] on
+    std::vector<Vec3> directions;               ///< oriented, unit
+    std::vector<std::uint32_t> firstLaunch;     ///< launches of direction d: firstLaunch[d] on
+    std::vector<Vec3> launches;                 ///< points on the object
+    std::vector<std::uint32_t> launchReceiver;  ///< the receiver that each is at
+    std::vector<std::uint32_t> firstEntry;      ///< entries of receiver r: firstEntry[r] on
     std::vector<Entry> entries;
 };
 
@@ -49,14 +51,15 @@ GatherPlan makeGatherPlan(const ObjectReceivers& receivers, const Sphere& bounds
 /// What the launches of a plan see, to be turned into light as often as that changes.
 class GatherSights {
   public:
-    /// Traces them for an object in this pose. `emission`: of the room's emitters as they are met;
+    /// Traces them for an object in this pose. `wanted`, by receiver: 0 where light need not be
+    /// known; empty: everywhere. `emission`: of the room's emitters as they are met;
     /// otherwise only where direct light does not have it.
-    void trace(const GatherPlan& plan, const Pose& pose, const Scene& scene, const RayScene& rays,
-               const RoomTexels& room, const SightObjects& objects, const Coverage& coverage,
-               bool emission);
+    void trace(const GatherPlan& plan, const Pose& pose, const LitRoom& room,
+               const SightObjects& objects, const Coverage& coverage,
+               std::span<const std::uint8_t> wanted, bool emission);
 
-    /// Irradiance at the receivers, added to what is in `irradiance`. `own`: irradiance at the
-    /// receivers as parts of the object see it.
+    /// Irradiance at the receivers, added to what is in `irradiance`, but for those that the trace
+    /// left out. `own`: irradiance at the receivers as parts of the object see it.
     void gather(const GatherPlan& plan, const ObjectReceivers& receivers,
                 std::span<const Vec3> texelRadiance, std::span<const LitObject> lit,
                 std::span<const Vec3> own, std::span<Vec3> irradiance);
@@ -67,8 +70,10 @@ class GatherSights {
         Sight sight;
     };
 
+    bool wants(std::size_t receiver) const { return wanted_.empty() || wanted_[receiver]; }
     void findRadiance(std::span<const Vec3> texelRadiance, std::span<const LitObject> lit);
 
+    std::vector<std::uint8_t> wanted_;
     std::vector<std::uint32_t> texel_;  ///< by launch: seen at once and without emission
     std::vector<std::uint8_t> valid_;
     std::vector<std::vector<Seen>> others_;  ///< by block

@@ -9,6 +9,7 @@ namespace vlf {
 namespace {
 
 constexpr std::size_t kReceiversPerBlock = 16;
+constexpr float kTurnedAway = -0.1f;               // cosine: its neighbours may be seen
 constexpr float kLeastCells = 6, kMostCells = 64;  // over an object's diameter
 
 }  // namespace
@@ -49,53 +50,113 @@ void ObjectLight::prepare(const DynamicObject& object, ObjectPlans& plans, int l
     ++lit_.version;
 }
 
+/// Whether the side that a receiver is on faces a viewer, or nearly.
+bool ObjectLight::showsTo(const DynamicObject& object, std::size_t receiver,
+                          std::span<const Vec3> viewers) const {
+    const ObjectReceivers& receivers = *plan_->receivers;
+    const Vec3 position = object.pose.point(receivers.position[receiver]);
+    const Vec3 normal = object.pose.direction(receivers.geometric[receiver]);
+    return std::any_of(viewers.begin(), viewers.end(), [&](const Vec3& eye) {
+        const Vec3 toEye = eye - position;
+        return glm::dot(normal, toEye) > kTurnedAway * glm::length(toEye);
+    });
+}
+
+/// All of it where light goes back from it to the room.
+void ObjectLight::findWanted(const DynamicObject& object, std::span<const Vec3> viewers) {
+    wanted_.clear();
+    if (viewers.empty() || lines_ || !object.settings.gather.onlyVisible) return;
+    wanted_.resize(plan_->receivers->size());
+    for (std::size_t r = 0; r < wanted_.size(); ++r) wanted_[r] = showsTo(object, r, viewers);
+}
+
+bool ObjectLight::misses(const DynamicObject& object, std::span<const Vec3> viewers) const {
+    if (wanted_.empty()) return false;
+    for (std::size_t r = 0; r < wanted_.size(); ++r)
+        if (!wanted_[r] && (viewers.empty() || showsTo(object, r, viewers))) return true;
+    return false;
+}
+
+std::unique_ptr<const ObjectEmitters> ObjectLight::emitters(const DynamicObject& object,
+                                                            std::uint32_t own) const {
+    if (!object.model->emits()) return nullptr;
+    if (plan_->receivers->areTexels()) return makeEmitters(object, *plan_->receivers->unwrap, own);
+    return makeEmitters(object, *makeReceivers(*object.model, {})->unwrap, own);
+}
+
 void ObjectLight::look(const DynamicObject& object, const Surroundings& around, std::uint32_t own) {
     lit_.pose = object.pose;
+    number_ = own;
     const SightObjects objects{&around.instances, around.lit, own};
     std::fill(irradiance_.begin(), irradiance_.end(), Vec3(0));
-    std::fill(own_.begin(), own_.end(), Vec3(0));
-    if (plan_->gathers) {
-        sights_.trace(plan_->gather, object.pose, around.scene, around.rays, around.room, objects,
-                      around.coverage, object.settings.gather.emittersByDirections);
+    std::fill(radiance_.begin(), radiance_.end(), Vec3(0));
+    findWanted(object, around.viewers);
+    if (plan_->shading == Shading::gather) {
+        sights_.trace(plan_->gather, object.pose, around.room, objects, around.coverage, wanted_,
+                      object.settings.gather.emittersByDirections);
         if (object.settings.gather.emittersByDirections)
             std::fill(direct_.begin(), direct_.end(), Vec3(0));
         else
             findDirect(object, around);
     }
     if (lines_)
-        delta_.trace(lines_->data, object.pose, around.scene, around.rays, around.room, objects,
-                     around.coverage, around.roomRadiance);
+        delta_.trace(lines_->data, *lit_.mesh, object.pose, around.room, objects, around.coverage);
 }
 
+/// Of the room's emitters and of the other objects'.
 void ObjectLight::findDirect(const DynamicObject& object, const Surroundings& around) {
     const ObjectReceivers& receivers = *plan_->receivers;
     const std::size_t blocks = (receivers.size() + kReceiversPerBlock - 1) / kReceiversPerBlock;
+    const RoomTexels& room = around.room.texels;
     parallelFor(blocks, 1, [&](std::size_t block) {
-        LightGatherer gatherer(around.scene, around.rays, around.room.unwrap, around.room.sources,
-                               0);
+        LightGatherer gatherer(around.room.scene, around.room.rays, room.unwrap, room.sources, 0);
         gatherer.setExtraOccluder(occluderOf(around.instances));
+        EmittedLight emitted(around.room.rays, around.instances);
         const std::size_t end = std::min(receivers.size(), (block + 1) * kReceiversPerBlock);
         for (std::size_t r = block * kReceiversPerBlock; r < end; ++r) {
+            direct_[r] = Vec3(0);
+            if (!wanted_.empty() && !wanted_[r]) continue;
             LightReceiver receiver = receivers.light[r];
             receiver.pose = &object.pose;
             receiver.centre = object.pose.point(receiver.centre);
             receiver.normal = object.pose.direction(receiver.normal);
             receiver.radius *= object.pose.scale;
             direct_[r] = gatherer.irradiance(receiver, object.settings.directSamples, 0).value;
+            for (const auto& emitters : around.emitters)
+                if (emitters && emitters->number != number_)
+                    direct_[r] += emitted.irradiance(emitters->points,
+                                                     object.pose.point(receivers.position[r]),
+                                                     object.pose.direction(receivers.normal[r]),
+                                                     object.pose.direction(receivers.geometric[r]));
         }
     });
 }
 
 void ObjectLight::find(const DynamicObject& object, const Surroundings& around) {
-    const ObjectReceivers& receivers = *plan_->receivers;
-    if (object.settings.shading == Shading::gather) {
-        own_ = irradiance_;
-        irradiance_ = direct_;
-        sights_.gather(plan_->gather, receivers, around.radiance, around.lit, own_, irradiance_);
-    } else {
-        std::fill(irradiance_.begin(), irradiance_.end(), around.meanIrradiance);
+    switch (plan_->shading) {
+        case Shading::flat:
+            std::fill(irradiance_.begin(), irradiance_.end(), around.meanIrradiance);
+            break;
+        case Shading::lights:
+            shadeByLights(around.points, *lit_.mesh, object.pose, around.room.rays, irradiance_);
+            break;
+        case Shading::gather:
+            own_ = irradiance_;
+            irradiance_ = direct_;
+            sights_.gather(plan_->gather, *plan_->receivers, around.radiance, around.lit, own_,
+                           irradiance_);
+            break;
+        case Shading::prt:
+            applyTransfer(*plan_->transfer, incident_, irradiance_);
+            break;
     }
     publish();
+}
+
+void ObjectLight::findIncident(const DynamicObject& object, const Surroundings& around) {
+    if (!scratch_) scratch_ = std::make_unique<IncidentLightFinder::Scratch>(around.incident);
+    around.incident.find(plan_->transfer->box, object.pose, around.radiance,
+                         {&around.instances, around.lit, number_}, *scratch_, incident_);
 }
 
 void ObjectLight::publish() {
@@ -109,9 +170,8 @@ void ObjectLight::publish() {
     ++lit_.version;
 }
 
-void ObjectLight::addChange(std::span<Vec3> change, std::span<std::uint8_t> touched,
-                            std::vector<std::uint32_t>& texels) {
-    if (lines_) delta_.addTo(change, touched, texels, radiance_);
+void ObjectLight::addChange(RoomChange& change) const {
+    if (lines_) delta_.addTo(change, radiance_);
 }
 
 }  // namespace vlf

@@ -2,7 +2,10 @@
 // The light on one object.
 
 #include "vlf/dynamic/delta_transport.h"
+#include "vlf/dynamic/incident_light.h"
+#include "vlf/dynamic/object_emitters.h"
 #include "vlf/dynamic/object_plan.h"
+#include "vlf/dynamic/point_lights.h"
 
 #include <memory>
 #include <span>
@@ -12,14 +15,15 @@ namespace vlf {
 
 /// The room around objects, and the other objects.
 struct Surroundings {
-    const Scene& scene;
-    const RayScene& rays;
-    const RoomTexels& room;
-    std::span<const Vec3> roomRadiance;  ///< by atlas texel, without objects, W·m⁻²·sr⁻¹
-    std::span<const Vec3> radiance;      ///< the same with them
+    LitRoom room;                    ///< without objects
+    std::span<const Vec3> radiance;  ///< of it with them
     const RayInstances& instances;
     std::span<const LitObject> lit;
     const Coverage& coverage;
+    const IncidentLightFinder& incident;
+    const PointLighting& points;
+    std::span<const std::unique_ptr<const ObjectEmitters>> emitters;  ///< of the lit objects
+    std::span<const Vec3> viewers;  ///< from where objects are seen; empty: from anywhere
     Vec3 meanIrradiance{0};
 };
 
@@ -30,23 +34,44 @@ class ObjectLight {
 
     const LitObject& lit() const { return lit_; }
 
-    /// Looks about from the object's pose. `own`: its number among the lit ones.
+    /// Whether a viewer sees parts of it that the last look left out.
+    bool misses(const DynamicObject& object, std::span<const Vec3> viewers) const;
+
+    /// The emitters of the object, as number `own` of the lit ones; null: it does not emit.
+    std::unique_ptr<const ObjectEmitters> emitters(const DynamicObject& object,
+                                                   std::uint32_t own) const;
+
+    /// Looks about from the object's pose, as number `own` of the lit ones.
     void look(const DynamicObject& object, const Surroundings& around, std::uint32_t own);
 
-    /// The light on it, by what the surroundings now send.
+    /// Of shading `prt`: the light that comes to it. Reads the light on other objects, which must
+    /// not change meanwhile.
+    void findIncident(const DynamicObject& object, const Surroundings& around);
+
+    /// The light on it, by what the surroundings now send; of shading `prt`, what findIncident()
+    /// has found.
     void find(const DynamicObject& object, const Surroundings& around);
 
+    /// Whether it takes from the room's indirect light and gives it back.
+    bool changesRoom() const { return lines_ != nullptr; }
+
     /// Adds how it changes the room's irradiance; see DeltaLines::addTo.
-    void addChange(std::span<Vec3> change, std::span<std::uint8_t> touched,
-                   std::vector<std::uint32_t>& texels);
+    void addChange(RoomChange& change) const;
 
   private:
+    bool showsTo(const DynamicObject& object, std::size_t receiver,
+                 std::span<const Vec3> viewers) const;
+    void findWanted(const DynamicObject& object, std::span<const Vec3> viewers);
     void findDirect(const DynamicObject& object, const Surroundings& around);
     void publish();
 
     std::shared_ptr<const ObjectPlan> plan_;
     std::shared_ptr<const LinesPlan> lines_;
+    std::uint32_t number_ = kNoObject;  ///< among the lit ones
+    std::vector<std::uint8_t> wanted_;  ///< by receiver; empty: all
     GatherSights sights_;
+    IncidentLight incident_;
+    std::unique_ptr<IncidentLightFinder::Scratch> scratch_;
     DeltaLines delta_;
     std::vector<Vec3> direct_, own_, irradiance_, radiance_;  ///< by receiver
     IrradianceAtlas atlas_;

@@ -18,20 +18,26 @@ std::shared_ptr<const Plan> find(std::vector<std::weak_ptr<const Plan>>& plans, 
 }  // namespace
 
 std::shared_ptr<const ObjectPlan> ObjectPlans::plan(const DynamicObject& object) {
-    const GatherSettings& settings = object.settings.gather;
-    const bool gathers = object.settings.shading == Shading::gather;
+    const Shading shading = object.settings.shading;
+    GatherSettings settings = object.settings.gather;
+    if (shading != Shading::gather) settings.points = GatherPoints::vertices;
+    const PrtSettings& prt = object.settings.prt;
     const auto found = find(plans_, [&](const ObjectPlan& p) {
-        return p.model == object.model && p.settings == settings && p.gathers == gathers;
+        return p.model == object.model && p.shading == shading && p.settings == settings &&
+               p.prt == prt;
     });
     if (found) return found;
     auto plan = std::make_shared<ObjectPlan>();
     plan->model = object.model;
+    plan->shading = shading;
     plan->settings = settings;
-    plan->gathers = gathers;
+    plan->prt = prt;
     plan->receivers = makeReceivers(*object.model, settings);
-    if (gathers)
+    if (shading == Shading::gather)
         plan->gather = makeGatherPlan(*plan->receivers, object.model->bounds(),
                                       {settings.lines, settings.step});
+    if (shading == Shading::prt)
+        plan->transfer = transfers_.transfer(object.model, settings.subdivision, prt);
     plans_.push_back(plan);
     return plan;
 }

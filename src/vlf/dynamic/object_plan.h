@@ -5,19 +5,22 @@
 #include "vlf/dynamic/object.h"
 #include "vlf/dynamic/object_lines.h"
 #include "vlf/dynamic/object_receivers.h"
+#include "vlf/dynamic/prt_store.h"
 
 #include <memory>
 #include <vector>
 
 namespace vlf {
 
-/// Receivers of light, and how they gather it.
+/// Receivers of light, and how they get it.
 struct ObjectPlan {
     std::shared_ptr<const ObjectModel> model;
+    Shading shading = Shading::flat;
     GatherSettings settings;
-    std::unique_ptr<const ObjectReceivers> receivers;
-    GatherPlan gather;  ///< empty unless shading is `gather`
-    bool gathers = false;
+    PrtSettings prt;
+    std::unique_ptr<const ObjectReceivers> receivers;  ///< texels for `gather` only
+    GatherPlan gather;                                 ///< of that shading
+    std::shared_ptr<const PrtTransfer> transfer;       ///< of shading `prt`
 };
 
 struct LinesPlan {
@@ -35,6 +38,7 @@ class ObjectPlans {
                                                int lines, float cell);
 
   private:
+    PrtStore transfers_;
     std::vector<std::weak_ptr<const ObjectPlan>> plans_;
     std::vector<std::weak_ptr<const LinesPlan>> lines_;
 };

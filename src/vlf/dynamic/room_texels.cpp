@@ -11,8 +11,6 @@ namespace vlf {
 
 namespace {
 
-constexpr std::uint32_t kGroupSide = 8;
-
 /// Mean diffuse reflectance over a texel's points.
 Vec3 meanReflectance(const Scene& scene, std::span<const SurfacePoint> points) {
     const Material& material = scene.material(points[0].triangle);
@@ -23,7 +21,7 @@ Vec3 meanReflectance(const Scene& scene, std::span<const SurfacePoint> points) {
     return sum / static_cast<float>(points.size());
 }
 
-/// Squares of kGroupSide² texels of a chart.
+/// Squares of RoomTexels::kGroupSide² texels of a chart.
 void groupTexels(const Scene& scene, RoomTexels& room) {
     const Unwrap& unwrap = room.unwrap;
     std::vector<std::pair<std::uint64_t, std::uint32_t>> keyed;
@@ -31,9 +29,11 @@ void groupTexels(const Scene& scene, RoomTexels& room) {
         const Chart& chart = unwrap.charts[unwrap.texelChart[i]];
         const std::uint32_t x = unwrap.texels[i] % unwrap.atlasWidth - chart.x;
         const std::uint32_t y = unwrap.texels[i] / unwrap.atlasWidth - chart.y;
-        const std::uint64_t square = std::uint64_t{y / kGroupSide} << 16 | x / kGroupSide;
+        const std::uint64_t square =
+            std::uint64_t{y / RoomTexels::kGroupSide} << 16 | x / RoomTexels::kGroupSide;
         keyed.emplace_back(std::uint64_t{unwrap.texelChart[i]} << 32 | square, i);
     }
+    room.groupOf.assign(unwrap.atlasSize(), 0);
     std::stable_sort(keyed.begin(), keyed.end(),
                      [](const auto& a, const auto& b) { return a.first < b.first; });
     for (std::size_t begin = 0, end = 0; begin < keyed.size(); begin = end) {
@@ -41,7 +41,10 @@ void groupTexels(const Scene& scene, RoomTexels& room) {
         group.first = static_cast<std::uint32_t>(begin);
         Bounds bounds;
         for (; end < keyed.size() && keyed[end].first == keyed[begin].first; ++end) {
+            const std::uint32_t texel = unwrap.texels[keyed[end].second];
             room.grouped.push_back(keyed[end].second);
+            room.groupOf[texel] = static_cast<std::uint32_t>(room.groups.size());
+            group.area += room.area[texel];
             for (const SurfacePoint& p : unwrap.points.of(keyed[end].second))
                 bounds.add(positionAt(scene, p.triangle, p.barycentric));
         }
@@ -85,6 +88,11 @@ RoomTexels makeRoomTexels(const Scene& scene, const RayScene& rays, const LightF
         spreadOverChart(unwrap.charts[c], unwrap.atlasWidth, kNoTexel, room.source);
     });
     groupTexels(scene, room);
+    for (const std::uint32_t t : unwrap.texels) {
+        room.meanReflectance += room.area[t] * room.reflectance[t];
+        room.totalArea += room.area[t];
+    }
+    if (room.totalArea > 0) room.meanReflectance /= room.totalArea;
     return room;
 }
 

@@ -24,11 +24,14 @@ struct RoomTriangle {
 /// Covered texels that lie together.
 struct TexelGroup {
     Sphere bounds;                       ///< of their surface
+    float area = 0;                      ///< m²
     std::uint32_t first = 0, count = 0;  ///< in RoomTexels::grouped
 };
 
 /// What does not change while objects move. Arrays are by atlas texel.
 struct RoomTexels {
+    static constexpr int kGroupSide = 8;  ///< texels along a group's side, at most
+
     Unwrap unwrap;
     LightSources sources;
     FieldFrame frame;
@@ -40,6 +43,9 @@ struct RoomTexels {
     std::vector<RoomTriangle> triangles;
     std::vector<TexelGroup> groups;
     std::vector<std::uint32_t> grouped;  ///< entries of unwrap.texels
+    std::vector<std::uint32_t> groupOf;  ///< of covered texels
+    Vec3 meanReflectance{0};             ///< diffuse, over all area
+    float totalArea = 0;                 ///< m²
     std::vector<std::uint32_t> entryOf;  ///< of unwrap.texels, of covered texels
 };
 

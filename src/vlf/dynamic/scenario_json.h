@@ -1,8 +1,8 @@
 #pragma once
 // The objects of a scenario as JSON: for the files that hold some. Needs nlohmann_json.
 
-#include "vlf/base/json_element.h"
 #include "vlf/dynamic/scenario.h"
+#include "vlf/scene/import/json_element.h"
 
 #include <string>
 

@@ -114,7 +114,8 @@ void SightTracer::meetObject(const Path& path, const Ray& ray, const InstanceHit
     const Material& material = scene.material(hit.triangle);
     const Vec2 uv = uvAt(scene, hit.triangle, hit.barycentric);
     if (material.isEmitter() && (sight.front || material.emitsBothSides))
-        sight.emission = emittedRadiance(scene, material, uv), sight.emissionApart = false;
+        sight.emission = emittedRadiance(scene, material, uv),
+        sight.emissionApart = !sight.inMirror;
     if (!material.isPureMirror() || material.isEmitter()) sights_->others.push_back(sight);
     if (!material.isMirror()) return;
     const float scale = object.pose.scale;

@@ -65,10 +65,13 @@ struct LightSources {
     std::vector<std::uint8_t> planarMirror;  ///< per chart
     std::vector<float> mirrorOffset;         ///< per chart: of a planar mirror's plane
     std::vector<std::uint32_t> mirrorChart;  ///< chart of each atlas texel of a mirror
-    int imageDepth = 0;  ///< chains of up to this many planar mirrors are in `images`
+    int imageDepth = 0;     ///< chains of up to this many planar mirrors are in `images`
+    bool allApart = false;  ///< rays over mirrors are not to look for emission at all
 
     /// Whether emission seen over these mirrors (charts, in order) is already in the direct light.
-    bool covers(int depth, bool allPlanar) const { return allPlanar && depth <= imageDepth; }
+    bool covers(int depth, bool allPlanar) const {
+        return allApart || (allPlanar && depth <= imageDepth);
+    }
 };
 
 LightSources findLightSources(const Scene& scene, const Unwrap& unwrap);

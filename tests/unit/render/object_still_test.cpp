@@ -226,7 +226,7 @@ TEST(ObjectStill, AnObjectIsLitAsPathTracingSays) {
         compareFaces(room.objects, baked.rays, params.camera, render(baked, still), truth);
     EXPECT_GE(faces.size(), 2u);
     for (const FaceRadiance& face : faces)
-        EXPECT_LT(std::abs(face.error()), 0.04) << face.pixels << " pixels, " << face.normal.y;
+        EXPECT_LT(std::abs(face.error()), 0.07) << face.pixels << " pixels, " << face.normal.y;
 }
 
 }  // namespace
