@@ -2,25 +2,34 @@
 
 #include "gpu_options.h"
 
-#include "vlf/base/error.h"
 #include "vlf/render/gl/still.h"
 
 namespace vlf::app {
 
+namespace {
+
+/// Of the options, or of the path that the camera follows.
+Scenario objectsToShow(const RenderOptions& options, const Scene& room, ModelLibrary& models,
+                       const Globals& globals) {
+    Scenario scenario = readObjects(options.objects, room, models, globals);
+    if (options.film.path.empty()) return scenario;
+    Walk walk = readWalk(options.film.path, options.objects, models, globals);
+    return walk.objects.objects.empty() ? std::move(scenario) : std::move(walk.objects);
+}
+
+}  // namespace
+
 RoomRenderer::RoomRenderer(const RenderOptions& options, const BakedRoom& room,
                            const Globals& globals)
     : room_(room) {
-    if (options.backend == Backend::gl && options.objects.any())
-        throw InputError("--object and --scenario: OpenGL draws no objects; use --backend cpu");
-    if (options.backend == Backend::cpu) {
-        rays_.emplace(room.scene);
-    } else {
+    scenario_ = objectsToShow(options, room.scene, models_, globals);
+    if (options.backend == Backend::cpu || !scenario_.objects.empty()) rays_.emplace(room.scene);
+    if (options.backend == Backend::gl) {
         context_.emplace();
         renderer_.emplace(room.scene, room.field, options.gpu);
         printNotices(globals.quiet, *renderer_);
     }
-    if (!options.objects.any()) return;
-    scenario_ = readObjects(options.objects, room.scene, models_, globals);
+    if (scenario_.objects.empty()) return;
     objects_.emplace(room.scene, *rays_, room.field);
     for (const ScenarioObject& object : scenario_.objects) objects_->add(object.object);
     moveTo(options.moment);
@@ -29,13 +38,13 @@ RoomRenderer::RoomRenderer(const RenderOptions& options, const BakedRoom& room,
 void RoomRenderer::moveTo(double seconds) {
     if (!objects_) return;
     vlf::moveTo(*objects_, scenario_, seconds);
-    objects_->update();
+    if (objects_->update() && renderer_) renderer_->updateObjects(*objects_);
 }
 
 Image RoomRenderer::render(const StillParams& params, Progress& progress, StillReport& report) {
-    if (renderer_) return renderStill(*renderer_, params, progress, &report);
     StillParams withObjects = params;
     withObjects.objects = objects_ ? &*objects_ : nullptr;
+    if (renderer_) return renderStill(*renderer_, withObjects, progress, &report);
     return renderStill(room_.scene, *rays_, room_.field, withObjects, progress, &report);
 }
 

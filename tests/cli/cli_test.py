@@ -13,7 +13,8 @@ import unittest
 
 from case import BAD_INPUT, FAILED, INTERRUPTED, PROGRAM, USAGE, Case, vlf
 
-COMMANDS = ["bake", "info", "render", "view", "reference", "compare", "scene", "sheet"]
+COMMANDS = ["bake", "info", "render", "view", "reference", "compare", "compare-dynamic", "scene",
+            "sheet"]
 EMPTY_OBJ = "# nothing\n"
 
 
