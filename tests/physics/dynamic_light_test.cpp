@@ -92,8 +92,8 @@ TEST(DynamicLight, IsAbsorbedAllTheSameWithAnObject) {
 TEST(DynamicLight, OfAnObjectThatEmitsIsAbsorbedWhole) {
     const FilledRoom empty(lampLit(), {});
     const Vec3 without = absorbedFlux(empty.room, texels());
-    const FilledRoom filled(
-        lampLit(), {finely(bodyAt("cube", {0.7f, 0.8f, 1.1f}, 0.3f, Vec3(0), {2, 4, 8}))});
+    const FilledRoom filled(lampLit(),
+                            {finely(bodyAt("cube", {0.7f, 0.8f, 1.1f}, 0.3f, Vec3(0), {2, 4, 8}))});
     const Vec3 emitted = kPi * Vec3(2, 4, 8) * 6.0f * 0.09f;
     const Vec3 ratio = (absorbedFlux(filled.room, texels()) - without) / emitted;
     EXPECT_LT(maxComponent(glm::abs(ratio - 1.0f)), 0.03f)

@@ -38,8 +38,7 @@ class BeforeAMirror : public testing::Test {
     }
 
     static DynamicObject body(const Vec3& diffuse, float side, const Vec3& emission = Vec3(0)) {
-        DynamicObject object =
-            bodyAt("cube", {side * 0.5f, 0.4f, 0.9f}, 0.4f, diffuse, emission);
+        DynamicObject object = bodyAt("cube", {side * 0.5f, 0.4f, 0.9f}, 0.4f, diffuse, emission);
         object.settings.gather.lines = 513;
         return object;
     }
@@ -69,8 +68,8 @@ class BeforeAMirror : public testing::Test {
                 return look(f.room.irradiance()) - look(f.room.roomIrradiance());
             };
             const std::uint32_t t = texels.unwrap.texels[i];
-            const float one = changeIn(
-                a, [&](const IrradianceAtlas& atlas) { return atlas.irradiance[t].x; });
+            const float one =
+                changeIn(a, [&](const IrradianceAtlas& atlas) { return atlas.irradiance[t].x; });
             const float two = changeIn(
                 b, [&](const IrradianceAtlas& atlas) { return atlas.sample(chart, at).x; });
             difference += texels.area[t] * std::abs(one - two);

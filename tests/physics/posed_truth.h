@@ -45,8 +45,7 @@ inline Vec3 absorbedFlux(const DynamicRoom& room, const RoomTexels& texels) {
     for (const std::size_t i : room.litNumbers()) {
         const DynamicObject& object = room.object(i);
         const Sphere& bounds = object.model->bounds();
-        spheres.push_back(
-            {object.pose.point(bounds.centre), object.pose.scale * bounds.radius});
+        spheres.push_back({object.pose.point(bounds.centre), object.pose.scale * bounds.radius});
     }
     const RayScene rays(room.scene());
     coverage.find(room.scene(), rays, texels, room.rays(), room.litObjects(), spheres);

@@ -2,6 +2,7 @@
 
 #include "vlf/base/error.h"
 #include "vlf/dynamic/light_exchange.h"
+#include "vlf/field/direction_set.h"
 
 #include <algorithm>
 #include <limits>
@@ -30,6 +31,10 @@ void check(const DynamicObject& object) {
             "needs from 1 to 1024 samples of direct light");
     require(s.gather.subdivision >= 0 && s.gather.subdivision <= ObjectModel::kMaxSubdivision,
             object, "can be subdivided from 0 to 3 times");
+    require(DirectionSet::exists(s.gather.lines), object,
+            "gathers over direction sets of 2·4ⁿ + 1 lines: 129, 513, 2049 or 8193");
+    require(s.gather.importanceSamples >= 0, object,
+            "picks directions by importance, at least one, or with 0 follows all of them");
     require(s.gather.step >= 1, object, "takes every step-th direction: the step is 1 or more");
     require(std::isfinite(s.gather.texelSize) && s.gather.texelSize >= 0, object,
             "needs texels of a size above 0 m, or of 0 for one that suits it");

@@ -44,6 +44,10 @@ bool takesDirectLight(const DynamicObject& object) {
            object.settings.shadow == ShadowKind::field;
 }
 
+bool isTransferred(const Body& body) {
+    return body.object->settings.shading == Shading::prt;
+}
+
 Vec3 mean(const RoomTexels& texels, const IrradianceAtlas& atlas) {
     glm::dvec3 sum(0);
     for (const std::uint32_t t : texels.unwrap.texels)
@@ -150,13 +154,16 @@ void LightExchange::findShadows() {
 }
 
 /// Objects that change the room's indirect light are lit by the room without it first, and then by
-/// what they and their shadows have made of it.
+/// what they and their shadows have made of it. Objects see one another, too: all are lit twice,
+/// first by others of which the light is but guessed.
 void LightExchange::exchange(const Surroundings& around) {
     const bool indirect = std::any_of(bodies_.begin(), bodies_.end(),
                                       [](const Body& body) { return body.light->changesRoom(); });
     const bool changes = indirect || !shadows_.empty() || !emitted_.empty();
     roomChanges_ = std::exchange(changedBefore_, changes) || changes;
     bounce_.clear();
+    for (const Body& body : bodies_)
+        if (isDue(body)) body.light->guess(meanIrradiance_);
     if (indirect) {
         Surroundings alone = around;
         alone.radiance = roomRadiance_;
@@ -165,8 +172,15 @@ void LightExchange::exchange(const Surroundings& around) {
     changeRoom(true);
     if (roomChanges_) change_.findRadiance(roomLight_, radiance_);
     findObjectLight(around);
-    if (indirect) changeRoom(false);
+    if (indirect)
+        changeRoom(false);
+    else
+        findOthersLight(around);
     change_.apply(roomLight_, light_);
+}
+
+bool LightExchange::isDue(const Body& body) const {
+    return !isTransferred(body) || body.stale || roomChanges_;
 }
 
 /// The change of the room's light by shadows and objects, `bouncing` anew.
@@ -185,17 +199,18 @@ void LightExchange::changeRoom(bool bouncing) {
 /// light that comes to the first is found before any on them changes, and not again where nothing
 /// that they see has changed.
 void LightExchange::findObjectLight(const Surroundings& around) {
-    const auto isTransferred = [](const Body& body) {
-        return body.object->settings.shading == Shading::prt;
-    };
     const auto forTransferred = [&](auto work) {
         parallelFor(bodies_.size(), [&](std::size_t i) {
             const Body& body = bodies_[i];
-            if (isTransferred(body) && (body.stale || roomChanges_)) work(body);
+            if (isTransferred(body) && isDue(body)) work(body);
         });
     };
     forTransferred([&](const Body& body) { body.light->findIncident(*body.object, around); });
     forTransferred([&](const Body& body) { body.light->find(*body.object, around); });
+    findOthersLight(around);
+}
+
+void LightExchange::findOthersLight(const Surroundings& around) {
     for (const Body& body : bodies_)
         if (!isTransferred(body)) body.light->find(*body.object, around);
 }

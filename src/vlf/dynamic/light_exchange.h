@@ -53,6 +53,8 @@ class LightExchange {
     void exchange(const Surroundings& around);
     void changeRoom(bool bouncing);
     void findObjectLight(const Surroundings& around);
+    void findOthersLight(const Surroundings& around);
+    bool isDue(const Body& body) const;
     LitRoom litRoom() const { return {scene_, roomRays_, texels_, roomRadiance_}; }
 
     const Scene& scene_;

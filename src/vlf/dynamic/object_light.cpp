@@ -91,8 +91,6 @@ void ObjectLight::look(const DynamicObject& object, const Surroundings& around, 
     lit_.pose = object.pose;
     number_ = own;
     const SightObjects objects{&around.instances, around.lit, own};
-    std::fill(irradiance_.begin(), irradiance_.end(), Vec3(0));
-    std::fill(radiance_.begin(), radiance_.end(), Vec3(0));
     findWanted(object, around.viewers);
     if (plan_->shading == Shading::gather) lookForGather(object, around, objects);
     if (lines_)
@@ -152,6 +150,11 @@ void ObjectLight::findDirect(const DynamicObject& object, const Surroundings& ar
     });
 }
 
+void ObjectLight::guess(const Vec3& irradiance) {
+    std::fill(irradiance_.begin(), irradiance_.end(), irradiance);
+    publish();
+}
+
 void ObjectLight::find(const DynamicObject& object, const Surroundings& around) {
     switch (plan_->shading) {
         case Shading::flat:
@@ -172,7 +175,6 @@ void ObjectLight::find(const DynamicObject& object, const Surroundings& around) 
 
 void ObjectLight::gather(const DynamicObject& object, const Surroundings& around) {
     const ObjectReceivers& receivers = *plan_->receivers;
-    std::fill(irradiance_.begin(), irradiance_.end(), Vec3(0));
     sights_.gather(plan_->gather, receivers, around.radiance, around.lit, direct_, irradiance_);
     if (object.settings.gather.cache)
         for (std::size_t r = 0; r < receivers.size(); ++r) {

@@ -48,6 +48,10 @@ class ObjectLight {
     /// Looks about from the object's pose, as number `own` of the lit ones.
     void look(const DynamicObject& object, const Surroundings& around, std::uint32_t own);
 
+    /// What is seen of it until find(), and where its light is not sought after that: `irradiance`
+    /// everywhere.
+    void guess(const Vec3& irradiance);
+
     /// Of shading `prt`: the light that comes to it. Reads the light on other objects, which must
     /// not change meanwhile.
     void findIncident(const DynamicObject& object, const Surroundings& around);

@@ -87,6 +87,12 @@ int smallestComponent(const Vec3& w) {
 
 }  // namespace
 
+bool DirectionSet::exists(int lines) {
+    for (int n = 0; n <= kMaxSubdivision; ++n)
+        if (lines == 2 * (1 << 2 * n) + 1) return true;
+    return false;
+}
+
 DirectionSet::DirectionSet(int lines)
     : rings_(ringsFor(lines)), directions_(2 * lines), weights_(lines) {
     placeDirections();

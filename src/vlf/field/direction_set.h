@@ -35,6 +35,9 @@ class DirectionSet {
     /// `lines` must be 2·4ⁿ + 1 with n in [0, 8]; throws InputError otherwise.
     explicit DirectionSet(int lines);
 
+    /// Whether there is a set of so many lines.
+    static bool exists(int lines);
+
     int lineCount() const { return static_cast<int>(weights_.size()); }
     int directionCount() const { return 2 * lineCount(); }
 

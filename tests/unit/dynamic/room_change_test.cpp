@@ -38,7 +38,10 @@ class ChangedRoom : public testing::Test {
         return texels.reflectance[t] * atlas.irradiance[t] / kPi;
     }
 
-    void apply() { change.apply(texels, own, light, radiance); }
+    void apply() {
+        change.apply(own, light);
+        change.findRadiance(own, radiance);
+    }
 };
 
 TEST_F(ChangedRoom, SendsWhatTheChangedTexelsReflect) {
@@ -62,6 +65,22 @@ TEST_F(ChangedRoom, IsItsOwnAgainWhereNothingChangesAnyMore) {
     apply();
     EXPECT_EQ(light.irradiance, own.irradiance);
     EXPECT_EQ(radiance, before);
+}
+
+TEST_F(ChangedRoom, AddsUpChangesOfTexelsGroupsAndAll) {
+    const std::uint32_t t = texels.unwrap.texels[5];
+    change.addToAll(Vec3(0.5f));
+    change.addToGroup(texels.groupOf[t], Vec3(0.25f));
+    change.add(t, Vec3(2));
+    apply();
+    for (const std::uint32_t other : texels.unwrap.texels) {
+        const bool inGroup = texels.groupOf[other] == texels.groupOf[t];
+        EXPECT_EQ(light.irradiance[other],
+                  Vec3(2.5f + (inGroup ? 0.25f : 0) + (other == t ? 2.0f : 0)));
+    }
+    change.clear();
+    apply();
+    EXPECT_EQ(light.irradiance, own.irradiance);
 }
 
 TEST_F(ChangedRoom, HasNoLightBelowZero) {

@@ -37,7 +37,10 @@ TEST(SpreadTexels, FillsTheChartAndItsGutterAndNothingElse) {
     spreadOverChart(chart(), kWidth, kNone, map);
     for (std::uint32_t y = 0; y < 12; ++y)
         for (std::uint32_t x = 0; x < kWidth; ++x)
-            EXPECT_EQ(map[at(x, y)], isOfChart(x, y) ? 42 : x + y == 0 ? 7 : kNone) << x << " " << y;
+            EXPECT_EQ(map[at(x, y)], isOfChart(x, y) ? 42
+                                     : x + y == 0    ? 7
+                                                     : kNone)
+                << x << " " << y;
 }
 
 TEST(SpreadTexels, TakesTheNearest) {

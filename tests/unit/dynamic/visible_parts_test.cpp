@@ -2,6 +2,7 @@
 
 #include "baked_room.h"
 
+#include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -35,7 +36,7 @@ DynamicObject cube() {
 
 class SeenCube {
   public:
-    explicit SeenCube(const BakedRoom& baked) : filled_(baked, {cube()}) {
+    explicit SeenCube(const BakedRoom& baked) : rays_(baked.rays), filled_(baked, {cube()}) {
         for (const Vec3& side : kSides) all_.push_back(light(side));
     }
 
@@ -55,12 +56,17 @@ class SeenCube {
         filled_.room.update();
     }
 
-    /// By side -x +x -y +y -z +z: 'l' lit as if all were seen, '0' dark, '?' else.
+    /// By side -x +x -y +y -z +z: 'l' lit as if all were seen, '0' as the room is in the mean for
+    /// want of better, '?' else.
     std::string sides() const {
         std::string s;
+        const RoomTexels texels = makeRoomTexels(filled_.room.scene(), rays_, filled_.room.field());
+        const Vec3 mean = meanIrradiance(texels, filled_.room.roomIrradiance());
         for (int i = 0; i < 6; ++i) {
             const Vec3 e = light(kSides[i]);
-            s += e == all_[static_cast<std::size_t>(i)] ? 'l' : e == Vec3(0) ? '0' : '?';
+            s += e == all_[static_cast<std::size_t>(i)]            ? 'l'
+                 : maxComponent(glm::abs(e / mean - 1.0f)) < 1e-4f ? '0'
+                                                                   : '?';
         }
         return s;
     }
@@ -73,6 +79,7 @@ class SeenCube {
         return meanIrradiance(filled_.room.litObjects()[0], side);
     }
 
+    const RayScene& rays_;
     FilledRoom filled_;
     std::vector<Vec3> all_;
 };
@@ -98,7 +105,7 @@ TEST(VisibleParts, AreFoundWhenTheViewerMoves) {
     seen.turn();
     EXPECT_TRUE(seen.seeFrom({kLeft}));
     EXPECT_EQ(seen.sides(), "l00000");
-    EXPECT_FALSE(seen.seeFrom({kLeft + Vec3(0, 0.1f, 0)}));
+    EXPECT_FALSE(seen.seeFrom({kLeft + Vec3(0, 0.05f, 0)}));
     EXPECT_TRUE(seen.seeFrom({{1.9f, 1.9f, 1.9f}}));
     EXPECT_EQ(seen.sides(), "0l0l0l");
     EXPECT_TRUE(seen.seeFrom({kLeft, kRight}));
@@ -109,9 +116,14 @@ TEST(VisibleParts, AreFoundWhenTheViewerMoves) {
 
 TEST(VisibleParts, AreThoseThatMirrorsShow) {
     SeenCube seen(mirrored());
-    seen.seeFrom({kRight});
+    seen.seeFrom({{0.7f, 1, 1}});
     seen.turn();
-    EXPECT_EQ(seen.sides(), "ll0000");
+    EXPECT_EQ(seen.sides(), "l00000");
+    // The mirror shows the far side to who stands on the other.
+    SeenCube other(mirrored());
+    other.seeFrom({kRight});
+    other.turn();
+    EXPECT_EQ(other.sides().substr(0, 2), "ll");
 }
 
 TEST(VisibleParts, AreAllOfWhatLightsTheRoom) {

@@ -99,7 +99,7 @@ void expectSameHits(const RayInstances& found, const Posed& posed, const std::ve
         others += single.hit.triangle != hits[i].hit.triangle ||
                   found.occluded(rays[i]) != static_cast<bool>(blocked[i]);
     }
-    EXPECT_GT(met, static_cast<int>(rays.size()) / 20);
+    EXPECT_GT(met, static_cast<int>(rays.size()) / 100);
     EXPECT_LE(others, static_cast<int>(rays.size()) / 500);
 }
 
