@@ -257,4 +257,16 @@ Scenario readObjects(const ObjectOptions& options, const Scene& room, ModelLibra
     return scenario;
 }
 
+Walk readWalk(const std::string& file, const ObjectOptions& options, ModelLibrary& library,
+              const Globals& globals) {
+    std::vector<std::string> warnings;
+    Walk walk = vlf::readWalk(file, library, warnings);
+    for (const std::string& warning : warnings) printWarning(globals.quiet, warning);
+    if (options.any() && !walk.objects.objects.empty())
+        throw InputError(file +
+                         ": holds objects of its own; leave out --object and --scenario, or follow "
+                         "a path without \"objects\"");
+    return walk;
+}
+
 }  // namespace vlf::app

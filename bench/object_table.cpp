@@ -24,7 +24,7 @@ using namespace vlf::bench;
 using Clock = std::chrono::steady_clock;
 
 struct Options {
-    std::string field, camera, object = "cube", shading = "gather", pictures;
+    std::string field, camera, object = "cube", shading = "gather", pictures, shaders;
     float size = 0.1f;  ///< metres
     int count = 1, width = 1024, height = 768, frames = 40;
     bool mirror = false, noShadow = false;
@@ -83,7 +83,7 @@ void print(const Camera& camera, const char* mode, const char* state, const Time
 
 void measure(const Options& options, const BakedRoom& room, const RayScene& rays,
              const Camera& camera) {
-    Renderer empty(room.scene, room.field), with(room.scene, room.field);
+    Renderer empty(room.scene, room.field), with(room.scene, room.field, {options.shaders});
     DynamicRoom objects(room.scene, rays, room.field);
     for (DynamicObject& object : makeObjects(options)) objects.add(object);
     const Target target(options.width, options.height);
@@ -150,6 +150,7 @@ int main(int argc, char** argv) {
     app.add_option("--height", options.height);
     app.add_option("--frames", options.frames);
     app.add_option("--pictures", options.pictures, "Prefix of pictures");
+    app.add_option("--shaders", options.shaders, "Folder of shaders for the room with objects");
     CLI11_PARSE(app, argc, argv);
     const BakedRoom room = readField(options.field);
     const RayScene rays(room.scene);

@@ -32,18 +32,22 @@ Vec3 fluxOf(const RoomChange& change, std::uint32_t texel, const RoomTexels& roo
 /// Systematic sampling: along the texels one after the other a ray for every portion of flux.
 void ChangeBounce::aim(const RoomChange& change, const Scene& scene, float epsilon,
                        const RoomTexels& room, const Coverage& coverage, int rays) {
-    rays_.clear(), carried_.clear();
+    rays_.clear(), carried_.clear(), flux_.clear();
     double all = 0;
-    for (const std::uint32_t t : change.texels()) all += size(fluxOf(change, t, room, coverage));
+    for (const std::uint32_t t : change.texels()) {
+        flux_.push_back(fluxOf(change, t, room, coverage));
+        all += size(flux_.back());
+    }
     const double portion = all / rays;
     if (portion <= 0) return;
     double passed = 0.5 * portion;
-    for (const std::uint32_t t : change.texels()) {
-        const Vec3 flux = fluxOf(change, t, room, coverage);
+    for (std::size_t i = 0; i < flux_.size(); ++i) {
+        const Vec3& flux = flux_[i];
         passed += size(flux);
         const auto count = static_cast<int>(passed / portion);
         if (count == 0) continue;
         passed -= count * portion;
+        const std::uint32_t t = change.texels()[i];
         const std::uint32_t entry = room.entryOf[t];
         const std::span<const SurfacePoint> points = coverage.points(room, entry);
         if (points.empty()) continue;
@@ -122,19 +126,10 @@ void ChangeBounce::find(const RoomChange& change, const Scene& scene, const RayS
     collect(room, coverage);
 }
 
-void ChangeBounce::addTo(RoomChange& change, const RoomTexels& room, const Coverage& coverage,
-                         float leastAmbient) const {
+void ChangeBounce::addTo(RoomChange& change, float leastAmbient) const {
     for (const TexelChange& t : near_) change.add(t.texel, t.irradiance);
-    for (const std::uint32_t g : changedGroups_) {
-        const TexelGroup& group = room.groups[g];
-        for (std::uint32_t i = group.first; i < group.first + group.count; ++i) {
-            const std::uint32_t texel = room.unwrap.texels[room.grouped[i]];
-            if (coverage.uncovered(texel) > 0) change.add(texel, groups_[g]);
-        }
-    }
-    if (size(ambient_) <= leastAmbient) return;
-    for (const std::uint32_t texel : room.unwrap.texels)
-        if (coverage.uncovered(texel) > 0) change.add(texel, ambient_);
+    for (const std::uint32_t g : changedGroups_) change.addToGroup(g, groups_[g]);
+    if (size(ambient_) > leastAmbient) change.addToAll(ambient_);
 }
 
 }  // namespace vlf

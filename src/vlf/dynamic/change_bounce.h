@@ -30,10 +30,8 @@ class ChangeBounce {
               const RoomTexels& room, const Coverage& coverage, const SightObjects& objects,
               int rays = kRays);
 
-    /// Adds what was found, the rest that is everywhere only if it is more than `leastAmbient`
-    /// (luminance, W·m⁻²): it touches every texel.
-    void addTo(RoomChange& change, const RoomTexels& room, const Coverage& coverage,
-               float leastAmbient) const;
+    /// Adds what was found, the rest only if it is more than `leastAmbient` (luminance, W·m⁻²).
+    void addTo(RoomChange& change, float leastAmbient) const;
 
     /// Nothing is found.
     void clear();
@@ -51,6 +49,7 @@ class ChangeBounce {
                const SightObjects& objects);
     void collect(const RoomTexels& room, const Coverage& coverage);
 
+    std::vector<Vec3> flux_;  ///< of the changed texels
     std::vector<Ray> rays_;
     std::vector<Vec3> carried_;  ///< flux of each ray, W
     std::vector<std::vector<Arrival>> arrivals_;

@@ -9,7 +9,8 @@
 //   4. exchange: object light from the room's, the room's from the objects', what has changed
 //      bouncing on (change_bounce.h), and the objects' once more.
 //
-// No step depends on the update before, so that the same poses give the same light.
+// No step depends on the update before (but for GatherSettings::cache), so that the same poses give
+// the same light.
 
 #include "vlf/dynamic/light_exchange.h"
 
@@ -24,7 +25,6 @@ namespace vlf {
 
 namespace {
 
-constexpr int kRounds = 1;              // of indirect light, beyond the first
 constexpr int kShadowSamples = 4;       // of a texel, for each of an object's own
 constexpr float kLeastAmbient = 5e-4f;  // of the room's mean irradiance
 
@@ -149,33 +149,36 @@ void LightExchange::findShadows() {
     sweep_->bounce(litRoom(), emitted_);
 }
 
+/// Objects that change the room's indirect light are lit by the room without it first, and then by
+/// what they and their shadows have made of it.
 void LightExchange::exchange(const Surroundings& around) {
     const bool indirect = std::any_of(bodies_.begin(), bodies_.end(),
                                       [](const Body& body) { return body.light->changesRoom(); });
     const bool changes = indirect || !shadows_.empty() || !emitted_.empty();
     roomChanges_ = std::exchange(changedBefore_, changes) || changes;
     bounce_.clear();
-    changeRoom(!indirect && !shadows_.empty());
-    findObjectLight(around);
-    if (!indirect) return;
-    for (int round = 0; round < kRounds; ++round) {
-        changeRoom(round == 0);
-        findObjectLight(around);
+    if (indirect) {
+        Surroundings alone = around;
+        alone.radiance = roomRadiance_;
+        findObjectLight(alone);
     }
-    changeRoom(false);
+    changeRoom(true);
+    if (roomChanges_) change_.findRadiance(roomLight_, radiance_);
+    findObjectLight(around);
+    if (indirect) changeRoom(false);
+    change_.apply(roomLight_, light_);
 }
 
-/// The room's light with shadows and what the objects change, `bouncing` anew.
+/// The change of the room's light by shadows and objects, `bouncing` anew.
 void LightExchange::changeRoom(bool bouncing) {
     change_.clear();
     for (const TexelChange& t : shadows_) change_.add(t.texel, t.irradiance);
     for (const Body& body : bodies_) body.light->addChange(change_);
-    if (bouncing)
+    if (bouncing && !change_.texels().empty())
         bounce_.find(change_, scene_, roomRays_, texels_, coverage_,
                      {&instances_, lit_, kNoObject});
-    bounce_.addTo(change_, texels_, coverage_, kLeastAmbient * luminance(meanIrradiance_));
+    bounce_.addTo(change_, kLeastAmbient * luminance(meanIrradiance_));
     for (const TexelChange& t : emitted_) change_.add(t.texel, t.irradiance);
-    change_.apply(texels_, roomLight_, light_, radiance_);
 }
 
 /// Those of precomputed transfer are many and quick, the others use all threads themselves. All

@@ -3,6 +3,8 @@
 #include "dynamic_example.h"
 #include "support/analytic_scenes.h"
 #include "vlf/render/cpu/camera_rays.h"
+#include "vlf/render/gl/progressive.h"
+#include "vlf/render/gl/read_framebuffer.h"
 #include "vlf/render/cpu/projection.h"
 
 #include <algorithm>
@@ -220,6 +222,34 @@ TEST_F(OpenGl, ObjectsOfAMeshShareItsBuffers) {
     dynamic.update();
     renderer.updateObjects(dynamic);
     EXPECT_LE(gl::liveObjects(), before + 1) << "buffers of records may stay";
+}
+
+TEST_F(OpenGl, ProgressivePicturesBeginAnewWhenObjectsMove) {
+    const BakedExample& room = mirrorRoom();
+    DynamicRoom dynamic(room.scene, room.rays, room.field);
+    dynamic.add(objectOf("cube", {2.9f, 1.8f, 1.4f}, 0.6f));
+    dynamic.update();
+    Renderer renderer(room.scene, room.field);
+    renderer.updateObjects(dynamic);
+    ProgressiveRenderer progressive(renderer);
+    const Target target(48, 36);
+    const View view = viewOf(room.camera("mirror"), 48, 36, renderer.nearest());
+    const auto draw = [&] { progressive.draw(view, {}, target.framebuffer.id(), 1); };
+    for (int i = 0; i < 10 && progressive.samples() == 0; ++i) draw();
+    EXPECT_GT(progressive.samples(), 0);
+    Pose pose = dynamic.object(0).pose;
+    pose.translation.x += 0.2f;
+    dynamic.setPose(0, pose);
+    dynamic.update();
+    renderer.updateObjects(dynamic);
+    draw();
+    EXPECT_EQ(progressive.samples(), 0);
+    const Image moving = readFramebuffer(target.framebuffer.id(), 48, 36);
+    const Target field(48, 36);
+    renderer.draw(view, {}, field.framebuffer.id());
+    EXPECT_EQ(moving.pixels, readFramebuffer(field.framebuffer.id(), 48, 36).pixels);
+    for (int i = 0; i < 10 && progressive.samples() == 0; ++i) draw();
+    EXPECT_GT(progressive.samples(), 0) << "at rest it is refined";
 }
 
 TEST_F(OpenGl, MovingObjectsCountAsNewLight) {

@@ -21,6 +21,17 @@ shared::ReceiverData receiverOf(const ChangedChart& changed, const Chart& chart)
             Vec4(chart.x, chart.y, changed.upper, changed.planar ? 1 : 0)};
 }
 
+/// Of the part of space that the change's ranges of coordinates say.
+std::array<Vec3, 8> placeOf(const ChangedChart& changed, const Chart& chart) {
+    const Mat3 world = glm::inverse(glm::transpose(Mat3(chart.uAxis, chart.vAxis, chart.normal)));
+    std::array<Vec3, 8> corners;
+    for (std::size_t i = 0; i < 8; ++i)
+        corners[i] = world * Vec3((i & 1 ? changed.first.x : changed.last.x) - chart.uOffset,
+                                  (i & 2 ? changed.first.y : changed.last.y) - chart.vOffset,
+                                  i & 4 ? changed.lower : changed.upper);
+    return corners;
+}
+
 }  // namespace
 
 ChangedLight::ChangedLight(const Scene& scene, const LightField& field, bool looksUp)
@@ -38,8 +49,10 @@ void ChangedLight::update(const IrradianceAtlas& with, const IrradianceAtlas& wi
     if (!looksUp_) return;
     charts_.update(with, without);
     receivers_.clear();
+    places_.clear();
     for (const ChangedChart& changed : charts_.charts()) {
         receivers_.push_back(receiverOf(changed, field_.charts[changed.chart]));
+        places_.push_back(placeOf(changed, field_.charts[changed.chart]));
         load(changed, with, without);
     }
 }

@@ -5,6 +5,7 @@
 #include "vlf/render/gl/gl_object.h"
 #include "vlf/render/gl/shaders/shared.h"
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -20,6 +21,8 @@ class ChangedLight {
     void update(const IrradianceAtlas& with, const IrradianceAtlas& without);
 
     std::span<const shared::ReceiverData> receivers() const { return receivers_; }
+    /// Eight corners around each receiver's changed part.
+    const std::vector<std::array<Vec3, 8>>& places() const { return places_; }
     float tolerance() const { return charts_.tolerance(); }
 
     /// Binds the factors to shared::kChangeUnit.
@@ -34,6 +37,7 @@ class ChangedLight {
     const LightField& field_;
     ChangedCharts charts_;
     std::vector<shared::ReceiverData> receivers_;
+    std::vector<std::array<Vec3, 8>> places_;
     std::vector<std::uint32_t> packed_;
     TextureObject factors_;  ///< in the atlas; where nothing has changed they are not read
     bool looksUp_;

@@ -28,7 +28,7 @@ class StateGuard {
     std::array<GLboolean, kSwitches.size()> switches_{};
     std::array<Unit, shared::kUnits> units_{};
     GLint cubes_ = 0;
-    std::array<GLint, 5> uniformBuffers_{};
+    std::array<GLint, 6> uniformBuffers_{};
     std::array<GLint, 4> viewport_{}, scissor_{};
     std::array<GLboolean, 4> colorMask_{};
     std::array<GLfloat, 4> clearColor_{};

@@ -103,13 +103,12 @@ void ObjectPass::loadRecords() {
         glNamedBufferSubData(recordBuffer_.id(), 0,
                              static_cast<GLsizeiptr>(count_ * sizeof(Record)), records_.data());
     data_.counts.x = static_cast<int>(count_);
-    data_.counts.y = static_cast<int>(hits_.roomNodes());
     glNamedBufferSubData(dataBuffer_.id(), 0, sizeof data_, &data_);
 }
 
 void ObjectPass::setChange(const ChangedLight& change) {
     data_.tolerance.x = change.tolerance();
-    data_.counts.z = static_cast<int>(change.receivers().size());
+    data_.counts.y = static_cast<int>(change.receivers().size());
     std::copy(change.receivers().begin(), change.receivers().end(), data_.receivers);
     glNamedBufferSubData(dataBuffer_.id(), 0, sizeof data_, &data_);
 }
@@ -122,12 +121,14 @@ void ObjectPass::bind() const {
 }
 
 Defines ObjectPass::definesOf(const GpuObjectMesh& mesh, const RoomBatch& batch,
-                              const RenderSettings& settings) const {
+                              const RenderSettings& settings, bool shadowed) const {
     Defines d{{"OBJECTS", "1"}};
     if (mesh.texels) d.emplace("BY_TEXEL", "1");
     if (mesh.mesh->scene.materials[batch.material].diffuseTexture >= 0)
         d.emplace("DIFFUSE_MAP", "1");
     if (maxComponent(Vec3(batch.data.emission)) > 0) d.emplace("EMISSION", "1");
+    if (batch.mirror && settings.mode == DisplayMode::raytraced && shadowed)
+        d.emplace("SHADOWS", "1");
     if (batch.mirror && settings.mode == DisplayMode::raytraced)
         d.emplace("MIRROR", "\"object_reflection.glsl\"");
     else if (batch.mirror)
@@ -135,14 +136,14 @@ Defines ObjectPass::definesOf(const GpuObjectMesh& mesh, const RoomBatch& batch,
     return d;
 }
 
-void ObjectPass::draw(const RenderSettings& settings) const {
+void ObjectPass::draw(const RenderSettings& settings, bool shadowed) const {
     for (std::size_t m = 0; m < meshes_.size(); ++m) {
         const GpuObjectMesh& mesh = meshes_.mesh(m);
         glBindVertexArray(mesh.vertexArray.id());
         for (std::size_t b = 0; b < mesh.geometry.batches.size(); ++b) {
             const RoomBatch& batch = mesh.geometry.batches[b];
             const Material& material = mesh.mesh->scene.materials[batch.material];
-            glUseProgram(shaders_.program("object", definesOf(mesh, batch, settings)));
+            glUseProgram(shaders_.program("object", definesOf(mesh, batch, settings, shadowed)));
             (batch.cull ? glEnable : glDisable)(GL_CULL_FACE);
             mesh.textures.bind(kDiffuseUnit, material.diffuseTexture);
             mesh.textures.bind(kEmissionUnit, material.emissionTexture);
@@ -163,13 +164,17 @@ void ObjectPass::drawEach(std::size_t mesh, std::size_t first, std::size_t count
     }
 }
 
-void ObjectPass::drawTriangles(GLuint program) const {
-    glUseProgram(program);
+void ObjectPass::drawTriangles(std::size_t object) const {
+    const GpuObjectMesh& mesh = meshes_.mesh(meshes_.meshOf(object));
+    glBindVertexArray(mesh.vertexArray.id());
+    glUniform1i(kObjectLocation, static_cast<GLint>(object));
+    glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(mesh.geometry.indices.size()),
+                   GL_UNSIGNED_INT, nullptr);
+}
+
+void ObjectPass::drawTriangles() const {
     glBindTextureUnit(kObjectUnit, recordTexture_.id());
-    for (std::size_t m = 0; m < meshes_.size(); ++m) {
-        glBindVertexArray(meshes_.mesh(m).vertexArray.id());
-        drawEach(m, 0, meshes_.mesh(m).geometry.indices.size());
-    }
+    for (std::size_t i = 0; i < count_; ++i) drawTriangles(i);
 }
 
 void ObjectPass::drawLines(LinePass& lines, bool normals) const {

@@ -28,6 +28,9 @@ class ObjectPass {
 
     bool empty() const { return count_ == 0; }
 
+    /// Around each: centre, radius.
+    const std::vector<Vec4>& spheres() const { return spheres_; }
+
     /// Places of the reflection probes that mirrors among the objects show, by layer.
     const std::vector<Vec3>& probeCentres() const { return probeCentres_; }
 
@@ -37,11 +40,13 @@ class ObjectPass {
     /// Binds what shaders with OBJECTS read.
     void bind() const;
 
-    /// In mode field or raytraced.
-    void draw(const RenderSettings& settings) const;
+    /// In mode field or raytraced. `shadowed`: the room has hard shadows.
+    void draw(const RenderSettings& settings, bool shadowed) const;
 
-    /// Triangles alone, with a program that has OBJECT, see depth.vert.
-    void drawTriangles(GLuint program) const;
+    /// Triangles alone, of one object or all, with a program in use that has OBJECT, see
+    /// object_place.glsl.
+    void drawTriangles(std::size_t object) const;
+    void drawTriangles() const;
 
     /// Edges and, if asked for, normals; see LinePass::draw.
     void drawLines(LinePass& lines, bool normals) const;
@@ -56,14 +61,14 @@ class ObjectPass {
     void loadRecords();
     void drawEach(std::size_t mesh, std::size_t first, std::size_t count) const;
     Defines definesOf(const GpuObjectMesh& mesh, const RoomBatch& batch,
-                      const RenderSettings& settings) const;
+                      const RenderSettings& settings, bool shadowed) const;
 
     ShaderLibrary& shaders_;
     HitBuffers& hits_;
     ObjectMeshes meshes_;
     ObjectLights lights_;
     std::vector<Record> records_;
-    std::vector<Vec4> spheres_;  ///< around each: centre, radius
+    std::vector<Vec4> spheres_;
     Buffer recordBuffer_, dataBuffer_;
     TextureObject recordTexture_;
     std::size_t capacity_ = 0, count_ = 0;

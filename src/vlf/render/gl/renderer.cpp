@@ -1,15 +1,14 @@
 #include "vlf/render/gl/renderer.h"
 
 #include "vlf/base/error.h"
-#include "vlf/render/gl/atlas_fit.h"
 #include "vlf/render/gl/drawings.h"
 #include "vlf/render/gl/gl_object.h"
 #include "vlf/render/gl/gl_state.h"
 #include "vlf/render/gl/gpu_memory.h"
-#include "vlf/render/gl/hit_buffers.h"
-#include "vlf/render/gl/object_pass.h"
-#include "vlf/render/gl/packed_radiance.h"
-#include "vlf/render/gl/reflection_probes.h"
+#include "vlf/render/gl/irradiance_texture.h"
+#include "vlf/render/gl/mirror_region.h"
+#include "vlf/render/gl/object_stage.h"
+#include "vlf/render/gl/radiance_buffers.h"
 #include "vlf/render/gl/room_geometry.h"
 #include "vlf/render/gl/room_vertex_array.h"
 #include "vlf/render/gl/scene_textures.h"
@@ -30,19 +29,7 @@ namespace {
 using namespace gl;
 using namespace shared;
 
-/// Surfaces of one depth count as one if they are closer than this in a subfield, in cells; as on
-/// the CPU (render/cpu/radiance_lookup.cpp).
-constexpr float kTolerance = 5;
-
 constexpr float kNearest = 1e-3f;  ///< the near plane, of the field's radius
-
-void requireLimit(std::uint64_t needed, GLenum limit, const std::string& what) {
-    GLint most = 0;
-    glGetIntegerv(limit, &most);
-    if (needed > static_cast<std::uint64_t>(most))
-        throw InputError(what + " (" + std::to_string(needed) + ") exceeds what this GPU holds (" +
-                         std::to_string(most) + "); bake it coarser, or render with --backend cpu");
-}
 
 std::uint32_t textureSide(const RendererOptions& options) {
     GLint most = 0;
@@ -51,21 +38,26 @@ std::uint32_t textureSide(const RendererOptions& options) {
     return options.maxTextureSize > 0 ? std::min(side, options.maxTextureSize) : side;
 }
 
-TextureObject makeAtlasTexture(const IrradianceAtlas& atlas) {
-    TextureObject texture = makeTexture(GL_TEXTURE_2D);
-    glTextureStorage2D(texture.id(), 1, GL_RGB9_E5, static_cast<GLsizei>(std::max(1u, atlas.width)),
-                       static_cast<GLsizei>(std::max(1u, atlas.height)));
-    for (const GLenum wrap : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T})
-        glTextureParameteri(texture.id(), wrap, GL_CLAMP_TO_EDGE);
-    glTextureParameteri(texture.id(), GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-    return texture;
-}
-
 std::uint64_t bufferTexels(const RendererOptions& options) {
     GLint most = 0;
     glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &most);
     const auto texels = static_cast<std::uint64_t>(most);
     return options.maxBufferTexels > 0 ? std::min(texels, options.maxBufferTexels) : texels;
+}
+
+PixelRectangle partOf(const View& view) {
+    return view.part.value_or(PixelRectangle{view.x, view.y, view.width, view.height});
+}
+
+bool hasMirrors(const Scene& scene) {
+    return std::any_of(scene.triangles.begin(), scene.triangles.end(),
+                       [&](const Triangle& t) { return scene.materials[t.material].isMirror(); });
+}
+
+const LightField& requireSameScene(const Scene& scene, const LightField& field) {
+    if (field.triangleCharts.size() != scene.triangles.size())
+        throw InputError("the light field belongs to another scene: bake this one");
+    return field;
 }
 
 /// What is left for the radiance field where other things take `others` bytes.
@@ -85,81 +77,53 @@ struct Renderer::Impl {
           lightField(field),
           shaders(options.shaderFolder),
           textures(scene),
-          fit(field, textureSide(options)),
-          objects(shaders, hits) {
-        if (field.triangleCharts.size() != scene.triangles.size())
-            throw InputError("the light field belongs to another scene: bake this one");
-        const RoomGeometry room = makeRoomGeometry(scene, fit.layout());
-        canLookUp = room.mirrorCharts.empty() || !field.radiance.empty();
+          atlas(requireSameScene(scene, field), textureSide(options)),
+          canLookUp(!hasMirrors(scene) || !field.radiance.empty()),
+          objects(scene, field, shaders,
+                  hasMirrors(scene) && canLookUp && atlas.fit().unchanged()) {
+        const RoomGeometry room = makeRoomGeometry(scene, atlas.fit().layout());
         loadGeometry(room);
-        atlas = makeAtlasTexture(fit.layout().atlas);
-        if (fit.factor() > 1)
-            notices.push_back("light is shown with " + std::to_string(fit.factor()) + " x " +
-                              std::to_string(fit.factor()) +
+        if (const std::uint32_t k = atlas.fit().factor(); k > 1)
+            notices.push_back("light is shown with " + std::to_string(k) + " x " +
+                              std::to_string(k) +
                               " texels made one: the irradiance atlas is larger than a texture of "
                               "this GPU may be");
-        loadIrradiance(field.atlas);
+        memory.atlas = atlas.bytes();
         viewBuffer = makeBuffer(nullptr, sizeof(ViewData), GL_DYNAMIC_STORAGE_BIT);
         nearest = kNearest * field.frame.radius;
         rayStart = rayEpsilon(scene);
         memory.textures = textureBytes(scene);
-        loadRadiance(field, room.mirrorCharts, options);
+        loadRadiance(room.mirrorCharts, options);
         makePrograms();
     }
 
     void loadGeometry(const RoomGeometry& room) {
         batches = room.batches;
-        indexCount = static_cast<GLsizei>(room.indices.size());
         mirrorTriangles = room.mirrorTriangles;
         vertices = makeBuffer(room.vertices.data(), room.vertices.size() * sizeof(RoomVertex));
         indices = makeBuffer(room.indices.data(), room.indices.size() * sizeof(std::uint32_t));
         vertexArray = makeRoomVertexArray(vertices, indices);
-        for (const RoomBatch& batch : batches)
+        for (const RoomBatch& batch : batches) {
             materialBuffers.push_back(makeBuffer(&batch.data, sizeof batch.data));
+            mirrorPlanes.push_back(
+                batch.mirror ? mirrorPlanesOf(scene, lightField, room, batch) : MirrorPlanes{});
+            planes += mirrorPlanes.back().anywhere ? MirrorPlanes::kMost
+                                                   : mirrorPlanes.back().planes.size();
+        }
         memory.geometry = bytesOf(room);
     }
 
-    void loadRadiance(const LightField& field, const std::vector<std::uint32_t>& charts,
-                      const RendererOptions& options) {
-        const std::uint64_t others = memory.total();
-        const RadianceLayout layout =
-            layOutWithin(radianceLimits(options, others), field.radiance, charts);
-        const PackedRadiance packed = packRadiance(field.radiance, charts, layout);
-        requireLimit(layout.records.size(), GL_MAX_TEXTURE_BUFFER_SIZE,
-                     "the number of mirrors times directions");
-        elements = makeBuffer(packed.elements.data(), 4 * packed.elements.size());
-        records = makeBuffer(layout.records.data(), sizeof(RadianceRecord) * layout.records.size());
-        fourATexel = layout.elements > bufferTexels(options);
-        elementTexture = makeBufferTexture(elements, fourATexel ? GL_RGBA32UI : GL_R32UI);
-        recordTexture = makeBufferTexture(records, GL_RGBA32UI);
-        if (layout.coarseness > 1)
-            notices.push_back(
-                "mirrors are shown with cells of " + std::to_string(layout.coarseness) + " x " +
-                std::to_string(layout.coarseness) +
-                " made one: all of the radiance field is too much for the GPU's memory");
-        const RadianceField& r = field.radiance;
-        const float diameter = 2 * field.frame.radius;
-        const float cells = static_cast<float>(r.cells - 1) / static_cast<float>(layout.coarseness);
-        viewData.fieldFrame = Vec4(field.frame.centre, cells / diameter);
-        viewData.field = {std::sqrt(0.5f * static_cast<float>(std::max(r.lines, 1) - 1)), r.lines, 0.5f * cells,
-                          kTolerance * diameter / std::max(cells, 1.0f)};
-        viewData.elementCode = {packed.longestDistance, packed.logSum.first, packed.logSum.step, 0};
-        viewData.shareCode = {packed.red.first, packed.red.step, packed.blue.first,
-                              packed.blue.step};
-        memory.radiance = layout.bytes();
-        memory.radianceElements = layout.elements;
-    }
-
-    void loadIrradiance(const IrradianceAtlas& whole) {
-        const IrradianceAtlas fitted = fit.unchanged() ? IrradianceAtlas{} : fit.fit(whole);
-        const IrradianceAtlas& light = fit.unchanged() ? whole : fitted;
-        std::vector<std::uint32_t> packed(light.irradiance.size());
-        std::transform(light.irradiance.begin(), light.irradiance.end(), packed.begin(),
-                       packRgb9e5);
-        glTextureSubImage2D(atlas.id(), 0, 0, 0, static_cast<GLsizei>(light.width),
-                            static_cast<GLsizei>(light.height), GL_RGB, GL_UNSIGNED_INT_5_9_9_9_REV,
-                            packed.data());
-        memory.atlas = 4 * packed.size();
+    void loadRadiance(const std::vector<std::uint32_t>& charts, const RendererOptions& options) {
+        radiance.emplace(lightField, charts, radianceLimits(options, memory.total()),
+                         bufferTexels(options));
+        const std::string k = std::to_string(radiance->coarseness());
+        if (radiance->coarseness() > 1)
+            notices.push_back("mirrors are shown with cells of " + k + " x " + k +
+                              " made one: all of the radiance field is too much for the GPU's "
+                              "memory");
+        radiance->describe(viewData);
+        memory.radiance = radiance->bytes();
+        memory.radianceElements = radiance->elements();
     }
 
     /// Those of mode field, so that no frame waits for them.
@@ -172,9 +136,10 @@ struct Renderer::Impl {
             }
     }
 
-    /// Of the variant of the shader that draws a batch.
+    /// Of the variant of the shader that draws a batch. `withObjects`: as far as they concern it;
+    /// `probed`: in a reflection probe.
     Defines definesOf(const RoomBatch& batch, const RenderSettings& settings,
-                      bool probed = false) const {
+                      bool withObjects = false, bool probed = false) const {
         const bool traced = settings.mode == DisplayMode::raytraced;
         Defines d;
         if (scene.materials[batch.material].diffuseTexture >= 0) d.emplace("DIFFUSE_MAP", "1");
@@ -183,11 +148,9 @@ struct Renderer::Impl {
             d.emplace("MIRROR", traced ? "\"traced_reflection.glsl\"" : "\"radiance_field.glsl\"");
         if (batch.mirror && !traced && settings.lookup == LookupKind::plain)
             d.emplace("PLAIN", "1");
-        if (batch.mirror && !objects.empty()) d.emplace("OBJECTS", "1");
-        if (probed) d.emplace("PROBED", std::to_string(ReflectionProbes::kSize));
-        if (batch.mirror && !probed && !traced && !objects.probeCentres().empty())
-            d.emplace("PROBES", "1");
-        if (batch.mirror && !traced && fourATexel) d.emplace("FOUR_A_TEXEL", "1");
+        if (batch.mirror && !traced && radiance && radiance->fourATexel())
+            d.emplace("FOUR_A_TEXEL", "1");
+        if (withObjects) objects.addDefines(d, batch.mirror, traced, probed);
         return d;
     }
 
@@ -195,7 +158,7 @@ struct Renderer::Impl {
         if (!showsRadiance(mode)) {
             if (!drawings) drawings.emplace(scene, lightField, shaders);
         } else if (mode == DisplayMode::raytraced) {
-            if (!hits.hasRoom()) loadHits();
+            if (!objects.hits().hasRoom()) loadHits();
         } else if (mode != DisplayMode::field) {
             throw InputError("mode progressive takes many calls: it is ProgressiveRenderer's");
         } else if (!canLookUp) {
@@ -206,24 +169,19 @@ struct Renderer::Impl {
     }
 
     void loadHits() {
-        const LightField layout = fit.layout();
-        hits.loadRoom(scene, layout.charts, layout.triangleCharts, mirrorTriangles);
+        const LightField layout = atlas.fit().layout();
+        objects.hits().loadRoom(scene, layout.charts, layout.triangleCharts, mirrorTriangles);
         objects.hitsReloaded();
-        memory.hits = hits.bytes();
+        memory.hits = objects.hits().bytes();
     }
 
     void updateObjects(const DynamicRoom& room) {
-        if (!change)
-            change.emplace(scene, lightField,
-                           !mirrorTriangles.empty() && canLookUp && fit.unchanged());
-        change->update(room.irradiance(), room.roomIrradiance());
+        if (roomVersion == room.irradianceVersion()) return;
         objects.update(room);
-        objects.setChange(*change);
-        probesStale = true;
-        if (room.irradianceVersion() != roomVersion) loadIrradiance(room.irradiance());
+        atlas.update(room.irradiance());
         roomVersion = room.irradianceVersion();
-        memory.hits = hits.bytes();
-        memory.objects = objects.bytes() + change->bytes() + probes.bytes();
+        memory.hits = objects.hits().bytes();
+        memory.objects = objects.bytes();
         ++lightChanges;
     }
 
@@ -241,65 +199,90 @@ struct Renderer::Impl {
     }
 
     void drawRoom(const View& view, const RenderSettings& settings, GLuint framebuffer) {
+        objects.drawShadows([&] { drawTriangles(false); });
         if (settings.mode == DisplayMode::field) drawProbes();
         prepare(view, framebuffer);
         if (!objects.empty()) {
-            bindObjects();
+            objects.bind();
             objects.draw(settings);
         }
-        drawBatches(settings);
-    }
-
-    void bindObjects() const {
-        objects.bind();
-        change->bind();
-        probes.bind();
-    }
-
-    void drawBatches(const RenderSettings& settings, bool probed = false) {
         glBindVertexArray(vertexArray.id());
         for (std::size_t i = 0; i < batches.size(); ++i)
-            drawBatch(i, definesOf(batches[i], settings, probed));
+            if (batches[i].mirror && !objects.empty())
+                drawMirror(i, view, settings);
+            else
+                drawBatch(i, definesOf(batches[i], settings, !objects.empty()));
     }
 
-    /// What mirror objects show, if it may have changed.
+    /// With objects where it shows them, and elsewhere as if there were none.
+    void drawMirror(std::size_t i, const View& view, const RenderSettings& settings) {
+        const PixelRectangle part = partOf(view);
+        const auto region = objects.region(view, mirrorPlanes[i], part,
+                                           settings.mode == DisplayMode::raytraced, planes == 1);
+        if (region) {
+            glScissor(region->x, region->y, region->width, region->height);
+            drawBatch(i, definesOf(batches[i], settings, true));
+            glScissor(part.x, part.y, part.width, part.height);
+        }
+        if (region && *region == part) return;
+        glDepthFunc(GL_LESS);
+        drawBatch(i, definesOf(batches[i], settings));
+        glDepthFunc(GL_LEQUAL);
+    }
+
     void drawProbes() {
-        if (objects.probeCentres().empty() || !std::exchange(probesStale, false)) return;
+        if (objects.objects().probeCentres().empty()) return;
         RenderSettings settings;
         settings.tone.reset();
         const ViewData shown = viewData;
-        probes.draw(objects.probeCentres(), nearest,
-                    [&](const Mat4& clipFromWorld, const Vec3& eye, GLuint framebuffer) {
-                        View face;
-                        face.width = face.height = ReflectionProbes::kSize;
-                        face.clipFromWorld = clipFromWorld;
-                        face.eye = eye;
-                        setView(face, settings);
-                        prepare(face, framebuffer);
-                        bindObjects();
-                        drawBatches(settings, true);
-                    });
+        objects.drawProbes(
+            nearest, [&](const Mat4& clipFromWorld, const Vec3& eye, GLuint framebuffer) {
+                View face;
+                face.width = face.height = ReflectionProbes::kSize;
+                face.clipFromWorld = clipFromWorld;
+                face.eye = eye;
+                setView(face, settings);
+                prepare(face, framebuffer);
+                objects.bind();
+                glBindVertexArray(vertexArray.id());
+                for (std::size_t i = 0; i < batches.size(); ++i)
+                    drawBatch(i, definesOf(batches[i], settings, true, true));
+            });
         viewData = shown;
         glNamedBufferSubData(viewBuffer.id(), 0, sizeof viewData, &viewData);
-        memory.objects = objects.bytes() + change->bytes() + probes.bytes();
+        memory.objects = objects.bytes();
+    }
+
+    /// Those of the room, with the program in use.
+    void drawTriangles(bool lamps) const {
+        glBindVertexArray(vertexArray.id());
+        for (const RoomBatch& batch : batches)
+            if (lamps || !scene.materials[batch.material].isEmitter())
+                glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(batch.indexCount),
+                               GL_UNSIGNED_INT,
+                               reinterpret_cast<const void*>(4 * std::size_t{batch.firstIndex}));
     }
 
     void setView(const View& view, const RenderSettings& settings) {
         viewData.clipFromWorld = view.clipFromWorld;
         viewData.eye = Vec4(view.eye, rayStart);
         viewData.tone = toneData(settings);
+        viewData.trace.x = static_cast<int>(objects.hits().roomNodes());
         glNamedBufferSubData(viewBuffer.id(), 0, sizeof viewData, &viewData);
     }
 
     void drawWireframe(const View& view, const RenderSettings& settings, GLuint framebuffer) {
         prepare(view, framebuffer);
-        const auto drawTriangles = [&] {
-            glBindVertexArray(vertexArray.id());
-            glDrawElements(GL_TRIANGLES, indexCount, GL_UNSIGNED_INT, nullptr);
-            objects.drawTriangles(shaders.program("depth", {{"OBJECT", "1"}}));
+        const auto drawDepth = [&] {
+            drawTriangles(true);
+            if (objects.empty()) return;
+            glUseProgram(shaders.program("depth", {{"OBJECT", "1"}}));
+            objects.objects().drawTriangles();
         };
-        const auto drawLines = [&](LinePass& lines) { objects.drawLines(lines, settings.normals); };
-        drawings->wireframe(view, settings.normals, drawTriangles, drawLines, framebuffer);
+        const auto drawLines = [&](LinePass& lines) {
+            if (!objects.empty()) objects.objects().drawLines(lines, settings.normals);
+        };
+        drawings->wireframe(view, settings.normals, drawDepth, drawLines, framebuffer);
     }
 
     void drawDiagram(const View& view, const RenderSettings& settings, GLuint framebuffer) {
@@ -309,7 +292,7 @@ struct Renderer::Impl {
             drawings->subfield(view, settings.diagram, settings.diagramCamera, framebuffer);
             return;
         }
-        if (kind == DiagramKind::chart && !fit.unchanged())
+        if (kind == DiagramKind::chart && !atlas.fit().unchanged())
             throw InputError(
                 "the texels of a chart cannot be shown: this GPU shows the irradiance atlas packed "
                 "anew; render the diagram with --backend cpu");
@@ -326,8 +309,7 @@ struct Renderer::Impl {
     void prepare(const View& view, GLuint framebuffer) {
         glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
         glViewport(view.x, view.y, view.width, view.height);
-        const PixelRectangle part =
-            view.part.value_or(PixelRectangle{view.x, view.y, view.width, view.height});
+        const PixelRectangle part = partOf(view);
         glScissor(part.x, part.y, part.width, part.height);
         glEnable(GL_SCISSOR_TEST);
         for (const GLenum off :
@@ -345,9 +327,8 @@ struct Renderer::Impl {
         glBindBufferBase(GL_UNIFORM_BUFFER, kViewBlock, viewBuffer.id());
         for (int unit = 0; unit < kUnits; ++unit) glBindSampler(static_cast<GLuint>(unit), 0);
         glBindTextureUnit(kIrradianceUnit, atlas.id());
-        glBindTextureUnit(kElementUnit, elementTexture.id());
-        glBindTextureUnit(kRecordUnit, recordTexture.id());
-        hits.bind();
+        radiance->bind();
+        objects.hits().bind();
     }
 
     void drawBatch(std::size_t i, const Defines& defines) {
@@ -368,26 +349,22 @@ struct Renderer::Impl {
     ShaderLibrary shaders;
     SceneTextures textures;
     std::vector<RoomBatch> batches;
-    Buffer vertices, indices, elements, records, viewBuffer;
-    std::vector<Buffer> materialBuffers;  ///< of each batch
+    Buffer vertices, indices, viewBuffer;
+    std::vector<Buffer> materialBuffers;     ///< of each batch
+    std::vector<MirrorPlanes> mirrorPlanes;  ///< likewise
+    std::size_t planes = 0;                  ///< in all
     VertexArray vertexArray;
-    AtlasFit fit;
-    TextureObject atlas, elementTexture, recordTexture;
+    IrradianceTexture atlas;
+    bool canLookUp;
+    std::optional<RadianceBuffers> radiance;
     std::vector<std::uint32_t> mirrorTriangles;
-    HitBuffers hits;  ///< of the room once reflections are traced
-    ObjectPass objects;
-    std::optional<ChangedLight> change;  ///< once objects have been there
-    ReflectionProbes probes;
-    bool probesStale = true;
-    std::uint64_t roomVersion = 0;  ///< of the DynamicRoom's irradiance
+    ObjectStage objects;
+    std::optional<std::uint64_t> roomVersion;  ///< of the DynamicRoom that is shown
     std::optional<Drawings> drawings;  ///< once one is drawn
-    GLsizei indexCount = 0;
     ViewData viewData{};
     GpuMemory memory;
     std::vector<std::string> notices;
-    bool fourATexel = false;  ///< elements of the radiance field
     float nearest = 0, rayStart = 0;  ///< metres
-    bool canLookUp = true;
     std::uint64_t lightChanges = 0;
 };
 
@@ -409,8 +386,8 @@ Camera Renderer::diagramView(const DiagramParams& params, const Camera& camera, 
 }
 
 void Renderer::updateIrradiance(const IrradianceAtlas& atlas) {
-    impl_->loadIrradiance(atlas);
-    impl_->probesStale = true;
+    impl_->atlas.load(atlas);
+    impl_->objects.outdate();
     ++impl_->lightChanges;
 }
 
@@ -428,7 +405,7 @@ std::uint64_t Renderer::lightChanges() const {
 
 void Renderer::reloadShaders() {
     impl_->shaders.reload();
-    impl_->probesStale = true;
+    impl_->objects.outdate();
 }
 
 float Renderer::nearest() const {

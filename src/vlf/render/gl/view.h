@@ -9,6 +9,8 @@ namespace vlf {
 
 struct PixelRectangle {
     int x = 0, y = 0, width = 0, height = 0;  ///< pixels from the lower left
+
+    friend bool operator==(const PixelRectangle&, const PixelRectangle&) = default;
 };
 
 struct View {

@@ -9,7 +9,7 @@ vec3 changeOfLight(vec3 origin, vec3 direction, float distance_) {
     vec2 place = vec2(0);
     float nearest = objects.tolerance.x;
     bool found = false;
-    for (int i = 0; i < objects.counts.z; ++i) {
+    for (int i = 0; i < objects.counts.y; ++i) {
         ReceiverData r = objects.receivers[i];
         float slope = dot(r.normal.xyz, direction), depth = dot(r.normal.xyz, p);
         float off = max(max(r.normal.w - depth, depth - r.place.z), 0);

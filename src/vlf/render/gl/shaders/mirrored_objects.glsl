@@ -6,13 +6,9 @@
 #include "probed_path.glsl"
 #endif
 
-// Radiance of the nearest object on the way, and its distance; false if there is none.
-bool objectOnTheWay(TracedPath path, float tMax, out vec3 radiance, out float t) {
-    TraceHit hit = TraceHit(kNoTriangle, tMax, vec2(0));
-    int object = traceObjects(path.origin, path.direction, hit);
-    t = hit.t;
-    radiance = vec3(0);
-    if (object < 0) return false;
+// Radiance of an object that a path meets.
+vec3 metRadiance(int object, TraceHit hit, TracedPath path) {
+    vec3 radiance = vec3(0);
     body = bodyOf(object);
     HitSurface s = surfaceAt(hit, toBody(body, path.direction));
     if (s.chart != kNoRecord) {
@@ -23,7 +19,7 @@ bool objectOnTheWay(TracedPath path, float tMax, out vec3 radiance, out float t)
 #endif
     }
     body = kRoomBody;
-    return true;
+    return radiance;
 }
 
 // `seen` is what the mirror shows without objects: a surface of radiance `front` at the distance
@@ -31,14 +27,24 @@ bool objectOnTheWay(TracedPath path, float tMax, out vec3 radiance, out float t)
 vec3 withObjects(vec3 seen, vec3 front, float nearest, float behind, float coverage, vec3 toEye) {
     vec3 n = normalize(mirrorNormal), direction = reflect(-toEye, n);
     if (dot(direction, geometricNormal) <= 0) direction = reflect(-toEye, geometricNormal);
-    vec3 origin = position + view.eye.w * geometricNormal;
+    TracedPath path =
+        TracedPath(position + view.eye.w * geometricNormal, direction, vec3(1));
+    vec3 change = changeOfLight(path.origin, direction, coverage < 0.5 ? behind : nearest);
     float tolerance = objects.tolerance.x;
-    vec3 object;
-    float t;
-    bool met = objectOnTheWay(TracedPath(origin, direction, vec3(1)),
-                              (coverage < 1 ? behind : nearest) + tolerance, object, t);
-    object *= material.mirror.rgb * texture(mirrorMap, uv, view.tone.z).rgb;
-    vec3 change = changeOfLight(origin, direction, coverage < 0.5 ? behind : nearest);
-    if (!met) return seen * change;
-    return t < nearest + tolerance ? object : mix(object, front * change, coverage);
+#ifdef SHADOWS
+    vec3 place = path.origin + (coverage < 0.5 ? behind : nearest) * direction;
+    change *= remainingLight(place, 1, tolerance);
+#endif
+    TraceHit hit =
+        TraceHit(kNoTriangle, (coverage < 1 ? behind : nearest) + tolerance, vec2(0));
+    int object = traceObjects(path.origin, direction, hit);
+    vec3 shown = seen * change;
+    // A loop is skipped where no ray has met anything, unless it is seen to be none.
+    while (object >= 0) {
+        vec3 met = metRadiance(object, hit, path) * material.mirror.rgb *
+                   textureLod(mirrorMap, uv, 0).rgb;
+        shown = hit.t < nearest + tolerance ? met : mix(met, front * change, coverage);
+        object = -1 - int(hit.triangle & 1u);
+    }
+    return shown;
 }

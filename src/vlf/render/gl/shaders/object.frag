@@ -18,6 +18,9 @@ in vec3 vertexIrradiance;
 in vec3 position;
 in vec3 normal;
 layout(binding = kIrradianceUnit) uniform sampler2D irradianceAtlas;
+#ifdef SHADOWS
+#include "hard_shadow.glsl"
+#endif
 #include MIRROR
 #elif defined(BY_TEXEL)
 layout(binding = kObjectAtlasUnit) uniform sampler2D objectAtlas;

@@ -60,17 +60,23 @@ bool entersSphere(vec4 sphere, vec3 origin, vec3 direction, float tMax) {
     return half_ > 0 && (square < r || (along > 0 && along - sqrt(max(half_, 0)) < tMax));
 }
 
-// The closest intersection with an object, if it is nearer than `hit`; its number, or -1.
+// The closest intersection with an object, if it is nearer than `hit`; its number, or -1. As in
+// trace.glsl, rays that go in step wait for each other until each is in some object's sphere; where
+// none is, the loops, unlike branches, are skipped.
 int traceObjects(vec3 origin, vec3 direction, inout TraceHit hit) {
     int found = -1;
-    if (!entersSphere(objects.sphere, origin, direction, hit.t)) return found;
-    for (int i = 0; i < objects.counts.x; ++i) {
-        if (!entersSphere(uintBitsToFloat(objectRecord(i, 3)), origin, direction, hit.t)) continue;
+    int i = entersSphere(objects.sphere, origin, direction, hit.t) ? 0 : objects.counts.x;
+    while (i < objects.counts.x) {
+        while (i < objects.counts.x &&
+               !entersSphere(uintBitsToFloat(objectRecord(i, 3)), origin, direction, hit.t))
+            ++i;
+        if (i >= objects.counts.x) break;
         Body o = bodyOf(i);
         uvec4 hierarchy = objectRecord(i, 4);
         TraceBody trace = TraceBody(int(hierarchy.y), int(hierarchy.z), int(hierarchy.w));
         if (traceNearer(trace, toBody(o, origin - o.origin), toBody(o, direction), 0, hit))
             found = i;
+        ++i;
     }
     return found;
 }

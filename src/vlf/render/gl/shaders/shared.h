@@ -38,7 +38,8 @@ VLF_INT kObjectAtlasUnit = 12;    // and at their texels
 VLF_INT kMirrorMapUnit = 13;
 VLF_INT kChangeUnit = 14;         // how objects change the irradiance atlas
 VLF_INT kProbeUnit = 15;          // reflection probes of mirror objects
-VLF_INT kUnits = 16;
+VLF_INT kShadowUnit = 16;         // of hard shadows: distances of objects, opacity, of the room
+VLF_INT kUnits = 17;
 VLF_INT kPictureUnit = 0;  // of picture_mean.frag, as are these uniforms
 VLF_INT kSizeLocation = 0;
 VLF_INT kWeightLocation = 1;
@@ -47,9 +48,11 @@ VLF_INT kWeightLocation = 1;
 VLF_INT kViewBlock = 0;
 VLF_INT kMaterialBlock = 1;
 VLF_INT kObjectsBlock = 4;
+VLF_INT kShadowBlock = 5;
 
 // Uniforms of object.vert and of line drawings of objects.
 VLF_INT kObjectLocation = 0;  // the number of the object
+VLF_INT kOpacityLocation = 1;  // of shadow.frag
 
 // Texels of an object in kObjectUnit; floats are held by their bits.
 //     three rows of the matrix from its space to the world's
@@ -93,6 +96,7 @@ struct ViewData {
     vec4 field;       // rings of the direction set, lines, cells (minus 1) / 2, tolerance (metres)
     vec4 elementCode;  // metres of the longest distance, log2 of the sum at code 0, its step
     vec4 shareCode;    // share of red at code 0, its step, and the same of blue
+    ivec4 trace;       // nodes of the room's hierarchy
 };
 
 struct MaterialData {
@@ -111,18 +115,26 @@ struct ReceiverData {
     vec4 place;   // in the atlas; greatest coordinate along the normal; whether it is a plane
 };
 
+// The light that hard shadows fall away from.
+struct ShadowData {
+    mat4 clipFromWorld;
+    vec4 light;   // position
+    vec4 normal;  // zero where it shines all round; w: width of a texel a metre from the light
+};
+
 // Of all objects.
 struct ObjectsData {
     vec4 sphere;     // around all of them: centre, radius
-    ivec4 counts;    // objects; nodes of the room's hierarchy; receivers
+    ivec4 counts;    // objects, receivers
     vec4 tolerance;  // metres between a surface and where the radiance field tells it
     ReceiverData receivers[kMostReceivers];
 };
 
 #ifdef __cplusplus
 #undef VLF_INT
+static_assert(sizeof(ShadowData) == 64 + 2 * 16);
 static_assert(sizeof(ObjectsData) == 3 * 16 + kMostReceivers * 5 * 16);
-static_assert(sizeof(ViewData) == 64 + 6 * 16);
+static_assert(sizeof(ViewData) == 64 + 7 * 16);
 static_assert(sizeof(MaterialData) == 4 * 16);
 }  // namespace vlf::shared
 #endif

@@ -10,8 +10,13 @@ layout(binding = kEmissionUnit) uniform sampler2D emissionMap;
 
 in vec2 uv;
 in vec2 atlasUv;
-#ifdef MIRROR
+#if defined(MIRROR) || defined(SHADOWS)
 in vec3 position;
+#endif
+#ifdef SHADOWS
+#include "hard_shadow.glsl"
+#endif
+#ifdef MIRROR
 flat in vec3 geometricNormal;
 flat in uint mirror;
 #ifdef OBJECTS
@@ -38,6 +43,11 @@ void main() {
 #endif
 #ifdef MIRROR
     radiance += mirrorRadiance();
+#endif
+#ifdef SHADOWS
+    vec3 side = normalize(cross(dFdx(position), dFdy(position)));
+    if (dot(side, view.eye.xyz - position) < 0) side = -side;
+    radiance *= remainingOn(position, side);
 #endif
     color = outputColor(radiance);
 #ifdef PROBED

@@ -5,11 +5,13 @@
 layout(location = kPositionAttribute) in vec3 positionIn;
 layout(location = kUvAttribute) in vec2 uvIn;
 layout(location = kAtlasUvAttribute) in vec2 atlasUvIn;
+#if defined(MIRROR) || defined(SHADOWS)
+out vec3 position;
+#endif
 #ifdef MIRROR
 layout(location = kGeometricNormalAttribute) in vec2 geometricNormalIn;
 layout(location = kMirrorAttribute) in uint mirrorIn;
 
-out vec3 position;
 flat out vec3 geometricNormal;
 flat out uint mirror;
 #ifdef OBJECTS
@@ -22,12 +24,17 @@ out vec3 mirrorNormal;
 out vec2 uv;
 out vec2 atlasUv;
 
+// Variants of the shader draw the same mirror one after the other.
+invariant gl_Position;
+
 void main() {
     gl_Position = view.clipFromWorld * vec4(positionIn, 1);
     uv = uvIn;
     atlasUv = atlasUvIn;
-#ifdef MIRROR
+#if defined(MIRROR) || defined(SHADOWS)
     position = positionIn;
+#endif
+#ifdef MIRROR
     geometricNormal = fromOctahedron(geometricNormalIn);
     mirror = mirrorIn;
 #ifdef OBJECTS

@@ -1,0 +1,41 @@
+#pragma once
+// The radiance field in the memory of the GPU.
+
+#include "vlf/field/light_field.h"
+#include "vlf/render/gl/gl_object.h"
+#include "vlf/render/gl/radiance_layout.h"
+#include "vlf/render/gl/shaders/shared.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace vlf::gl {
+
+class RadianceBuffers {
+  public:
+    /// Of these mirror charts, as finely as `limits` and `bufferTexels`, texels of a buffer
+    /// texture, allow. Throws InputError if its coarsest is too much.
+    RadianceBuffers(const LightField& field, const std::vector<std::uint32_t>& charts,
+                    const RadianceLimits& limits, std::uint64_t bufferTexels);
+
+    /// Binds both to their units (shaders/shared.h).
+    void bind() const;
+
+    /// What shaders are told of it.
+    void describe(shared::ViewData& data) const;
+
+    bool fourATexel() const { return fourATexel_; }
+    std::uint32_t coarseness() const { return coarseness_; }
+    std::uint64_t bytes() const { return bytes_; }
+    std::uint64_t elements() const { return elementCount_; }
+
+  private:
+    Buffer elements_, records_;
+    TextureObject elementTexture_, recordTexture_;
+    shared::ViewData data_{};
+    bool fourATexel_ = false;
+    std::uint32_t coarseness_ = 1;
+    std::uint64_t bytes_ = 0, elementCount_ = 0;
+};
+
+}  // namespace vlf::gl
