@@ -99,7 +99,7 @@ class FilmMaker {
 
     FrameLog make(const FrameRange& frames, float exposure, FrameOutput& output,
                   Progress& progress) {
-        FrameLog log({"develop", "write"});
+        FrameLog log({"objects", "develop", "write"});
         for (int frame = frames.first; frame < frames.end; ++frame) {
             progress.check();
             PartProgress part(progress, frame - frames.first, frames.count());
@@ -124,6 +124,7 @@ class FilmMaker {
         record.pathSeconds = frame / options_.film.fps;
         record.pose = path_.at(record.pathSeconds);
         renderer_.moveTo(record.pathSeconds);
+        const double moved = millisecondsSince(start);
         StillReport report;
         std::vector<Image> eyes =
             renderEyes(renderer_, still(record.pathSeconds), options_.stereo, progress, report);
@@ -133,7 +134,7 @@ class FilmMaker {
         const double developed = millisecondsSince(start);
         output.add(frame, pictures);
         record.totalMs = millisecondsSince(start);
-        record.passMs = {developed - record.cpuMs, record.totalMs - developed};
+        record.passMs = {moved, developed - record.cpuMs, record.totalMs - developed};
         return record;
     }
 

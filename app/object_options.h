@@ -3,6 +3,7 @@
 
 #include "commands.h"
 
+#include "vlf/display/camera_path_file.h"
 #include "vlf/dynamic/scenario.h"
 
 #include <optional>
@@ -29,6 +30,11 @@ std::string objectHelp();
 /// that are not stated. Throws InputError naming option or file, and FileError.
 Scenario readObjects(const ObjectOptions& options, const Scene& room, ModelLibrary& library,
                      const Globals& globals);
+
+/// The walk in a file. Throws as vlf::readWalk, and InputError if it holds objects although the
+/// options ask for some.
+Walk readWalk(const std::string& file, const ObjectOptions& options, ModelLibrary& library,
+              const Globals& globals);
 
 /// One object written as for --object, without its model; at `fallback` if no place is stated.
 /// Throws InputError.

@@ -102,6 +102,7 @@ nlohmann::ordered_json toJson(const GpuMemory& memory) {
             {"textures", memory.textures},
             {"hits", memory.hits},
             {"drawings", memory.drawings},
+            {"objects", memory.objects},
             {"radianceElements", memory.radianceElements}};
 }
 

@@ -39,6 +39,7 @@ struct Options {
     CameraOptions camera;
     ObjectOptions objects;
     ViewerOptions viewer;
+    std::string replay;  ///< file of a path to follow; empty: none
     std::string mode;
     bool fresh = false;
     bool noVsync = false;
@@ -73,6 +74,10 @@ ViewerOptions viewerOptions(const Options& options, const Globals& globals, cons
     viewer.verbose = globals.verbose;
     viewer.objects = readObjects(options.objects, scene, viewer.models, globals);
     viewer.object = options.objects.defaults;
+    if (options.replay.empty()) return viewer;
+    Walk walk = readWalk(options.replay, options.objects, viewer.models, globals);
+    viewer.session.replay = std::move(walk.camera);
+    if (!walk.objects.objects.empty()) viewer.objects = std::move(walk.objects);
     return viewer;
 }
 
@@ -168,11 +173,11 @@ void addWindowOptions(CLI::App& command, Options& options) {
         ->type_name("DIR");
 }
 
-void addSessionOptions(CLI::App& command, SessionOptions& session) {
+void addSessionOptions(CLI::App& command, SessionOptions& session, std::string& path) {
     CLI::Option_group* group = command.add_option_group("Session", "Writing down and replaying");
     group->add_option("--record", session.record, "Write the path of camera and objects (.json)")
         ->type_name("PATH");
-    CLI::Option* replay = group->add_option("--replay", session.replay, "Follow such a path")
+    CLI::Option* replay = group->add_option("--replay", path, "Follow such a path")
                               ->check(CLI::ExistingFile)
                               ->type_name("PATH");
     group->add_flag("--loop", session.loop, "Begin the replay again when it ends")->needs(replay);
@@ -208,7 +213,7 @@ void addView(CLI::App& app, const Globals& globals) {
     command->add_option("--mode", options->mode, "What to show first; M shows the next")
         ->check(CLI::IsMember(modeNames()))
         ->capture_default_str();
-    addSessionOptions(*command, options->viewer.session);
+    addSessionOptions(*command, options->viewer.session, options->replay);
     const CLI::Option* output =
         command
             ->add_option("-o,--output", options->viewer.output,

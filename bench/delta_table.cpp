@@ -56,7 +56,10 @@ void measureTimes(DynamicRoom& room, const Options& o) {
         sum += t;
         least = std::min(least, t);
     }
-    std::printf("update: %.2f ms mean, %.2f ms least\n", sum / o.frames, least);
+    std::printf("update: %.2f ms mean, %.2f ms least; ", sum / o.frames, least);
+    const UpdateTimes& t = room.updateTimes();
+    std::printf("the last: place %.2f look %.2f shadows %.2f exchange %.2f ms\n", 1e3 * t.place,
+                1e3 * t.look, 1e3 * t.shadows, 1e3 * t.exchange);
     Pose pose = room.object(0).pose;
     pose.translation = o.at;
     room.setPose(0, pose);
@@ -178,6 +181,8 @@ int main(int argc, char** argv) {
             o.settings.shadow = k == "none"   ? ShadowKind::none
                                 : k == "soft" ? ShadowKind::soft
                                               : ShadowKind::field;
+        } else if (a == "--flat") {
+            o.settings.shading = Shading::flat;
         } else if (a == "--vertices") {
             o.settings.gather.points = GatherPoints::vertices;
             o.settings.gather.subdivision = std::stoi(next());

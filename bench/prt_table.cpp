@@ -5,6 +5,7 @@
 #include "vlf/base/parallel.h"
 #include "vlf/dynamic/incident_light.h"
 #include "vlf/dynamic/object_model.h"
+#include "vlf/dynamic/point_lights.h"
 #include "vlf/dynamic/posed_scene.h"
 #include "vlf/math/frame.h"
 #include "vlf/math/random.h"
@@ -131,7 +132,8 @@ void printTimes(const Room& room, const ObjectMesh& mesh, float size) {
 struct Truth {
     std::uint32_t vertex = 0;
     Vec3 field{0}, fieldError{0};  // by paths that end on the room as it is baked, without the knot
-    Vec3 traced{0}, tracedError{0};  // by paths in the room with the knot in it
+    Vec3 indirect{0}, indirectError{0};  // of these, without what the emitters send at once
+    Vec3 traced{0}, tracedError{0};      // by paths in the room with the knot in it
 };
 
 struct Mean {
@@ -150,8 +152,12 @@ struct Mean {
     }
 };
 
+struct Seen {
+    Vec3 reflected{0}, emitted{0};
+};
+
 /// What comes along a ray from the room or, by diffuse reflection, from the knot.
-Vec3 fieldPath(const Room& room, const ObjectMesh& mesh, const Pose& pose, SightTracer& tracer,
+Seen fieldPath(const Room& room, const ObjectMesh& mesh, const Pose& pose, SightTracer& tracer,
                Ray ray, RandomStream& random) {
     Vec3 throughput(1);
     for (int bounces = 0; bounces < 20; ++bounces) {
@@ -164,13 +170,16 @@ Vec3 fieldPath(const Room& room, const ObjectMesh& mesh, const Pose& pose, Sight
         ray.origin += hit.t * ray.direction + room.rays.epsilon() * normal;
         ray.direction = frameFromNormal(normal).toWorld(sampleCosineHemisphere(random.next2()));
     }
-    Vec3 seen(0);
-    Sights sights;
+    Seen seen;
+    thread_local Sights sights;
     tracer.trace(std::span(&ray, 1), sights);
-    if (sights.texel[0] != kNoTexel) seen += room.radiance[sights.texel[0]];
-    for (const Sight& sight : sights.others)
-        seen += sight.throughput * (diffuseRadiance(sight, room.radiance, {}) + sight.emission);
-    return throughput * seen;
+    if (sights.texel[0] != kNoTexel) seen.reflected = throughput * room.radiance[sights.texel[0]];
+    for (const Sight& sight : sights.others) {
+        const Vec3 share = throughput * sight.throughput;
+        seen.reflected += share * diffuseRadiance(sight, room.radiance, {});
+        seen.emitted += share * sight.emission;
+    }
+    return seen;
 }
 
 std::vector<Truth> findTruth(const Room& room, const std::shared_ptr<const ObjectModel>& model,
@@ -192,67 +201,88 @@ std::vector<Truth> findTruth(const Room& room, const std::shared_ptr<const Objec
             pose.direction(mesh.scene.normals[mesh.scene.triangles[triangle].vertex[0]]);
         const Vec3 face = geometricNormal(scene, point.triangle);
         const Vec3 from = positionAt(scene, point.triangle, place) + rays.epsilon() * face;
-        SightTracer sights(room.scene, room.rays, room.texels);
-        Mean field, traced;
+        SightTracer tracer(room.scene, room.rays, room.texels);
+        Mean field, indirect, traced;
         for (int k = 0; k < paths; ++k) {
             RandomStream random(k, i);
             const auto everywhere = [](std::uint32_t, bool) { return true; };
             if (const auto e = integrator.irradiance(point, everywhere, random)) traced.add(*e);
             const Vec3 d = frameFromNormal(normal).toWorld(sampleCosineHemisphere(random.next2()));
-            if (glm::dot(d, face) > 0)
-                field.add(kPi * fieldPath(room, mesh, pose, sights, {from, d}, random));
+            if (glm::dot(d, face) <= 0) continue;
+            const Seen seen = fieldPath(room, mesh, pose, tracer, {from, d}, random);
+            field.add(kPi * (seen.reflected + seen.emitted));
+            indirect.add(kPi * seen.reflected);
         }
-        truths[i] = {mesh.scene.triangles[triangle].vertex[0], field.mean(), field.squareError(),
-                     traced.mean(), traced.squareError()};
+        truths[i] = {mesh.scene.triangles[triangle].vertex[0],
+                     field.mean(),
+                     field.squareError(),
+                     indirect.mean(),
+                     indirect.squareError(),
+                     traced.mean(),
+                     traced.squareError()};
     });
     return truths;
 }
 
 /// √(Σ(E−E*)² / ΣE*²), the truth's own noise taken out.
-struct Errors {
-    double field = 0, traced = 0;
-};
-
-Errors errorsOf(const std::vector<Truth>& truths, const std::vector<Vec3>& irradiance) {
-    const auto relative = [&](Vec3 Truth::*truth, Vec3 Truth::*noise) {
-        double squares = 0, sum = 0;
-        for (const Truth& t : truths) {
-            const Vec3 d = irradiance[t.vertex] - t.*truth;
-            squares += glm::dot(d, d) - glm::dot(t.*noise, Vec3(1));
-            sum += glm::dot(t.*truth, t.*truth) - glm::dot(t.*noise, Vec3(1));
-        }
-        return std::sqrt(std::max(squares, 0.0) / sum);
-    };
-    return {relative(&Truth::field, &Truth::fieldError),
-            relative(&Truth::traced, &Truth::tracedError)};
+double relativeError(const std::vector<Truth>& truths, const std::vector<Vec3>& irradiance,
+                     Vec3 Truth::*truth, Vec3 Truth::*noise) {
+    double squares = 0, sum = 0;
+    for (const Truth& t : truths) {
+        const Vec3 d = irradiance[t.vertex] - t.*truth;
+        squares += glm::dot(d, d) - glm::dot(t.*noise, Vec3(1));
+        sum += glm::dot(t.*truth, t.*truth) - glm::dot(t.*noise, Vec3(1));
+    }
+    return std::sqrt(std::max(squares, 0.0) / sum);
 }
 
 void printErrors(const Room& room, const std::shared_ptr<const ObjectModel>& model,
                  const Options& options) {
     const ObjectMesh& mesh = model->mesh();
     const Bounds box = boundsOf(mesh.scene);
-    std::vector<Vec3> irradiance(mesh.sidedVertexCount());
-    std::printf("\n%-14s %-16s %6s  %14s  %14s\n", "place", "incident light", "order",
-                "field as it is", "path tracing");
+    std::vector<PrtTransfer> transfers;
+    for (int order = 1; order <= kMaxShOrder; ++order)
+        transfers.push_back(computeTransfer(mesh, {.order = order}));
+    struct Way {
+        const char* name;
+        IncidentSettings settings;
+        int firstOrder;
+    };
+    const Way ways[]{{"eight corners", {}, 1},
+                     {"one place", {.largeFrom = 10}, 5},
+                     {"eight, 513 lines", {.cornerLines = 513, .cornerEmitterPoints = 256}, 5}};
+    const PointLighting lights =
+        estimatePointLights(room.scene, room.rays, room.texels, room.field.atlas);
+    std::printf("\n%-14s %-16s %6s %14s %14s %14s\n", "place", "incident light", "order",
+                "field as it is", "indirect alone", "path tracing");
     for (const Place& place : places(room.scene, options.size)) {
         const std::vector<Truth> truths = findTruth(room, model, place.pose, options.paths);
-        struct Way {
-            const char* name;
-            IncidentSettings settings;
-            int firstOrder;
-        };
-        for (const Way& way :
-             {Way{"eight corners", {}, 1}, Way{"one place", {.largeFrom = 10}, 5},
-              Way{"eight, 513 lines", {.cornerLines = 513, .cornerEmitterPoints = 256}, 5}}) {
-            const IncidentLightFinder finder(room.scene, room.rays, room.texels, way.settings);
-            IncidentLightFinder::Scratch scratch(finder);
-            IncidentLight light;
-            finder.find(box, place.pose, room.radiance, {}, scratch, light);
+        std::vector<Vec3> shaded(mesh.sidedVertexCount());
+        const double time =
+            milliseconds(5, [&] { shadeByLights(lights, mesh, place.pose, room.rays, shaded); });
+        std::printf("%-14s %zu point light(s), %.2f ms %33.1f %%\n", place.name,
+                    lights.lights.size(), time,
+                    100 * relativeError(truths, shaded, &Truth::traced, &Truth::tracedError));
+        for (const Way& way : ways) {
+            const auto light = [&](IncidentEmitters emitters, int order) {
+                IncidentSettings settings = way.settings;
+                settings.emitters = emitters;
+                const IncidentLightFinder finder(room.scene, room.rays, room.texels, settings);
+                IncidentLightFinder::Scratch scratch(finder);
+                IncidentLight incident;
+                finder.find(box, place.pose, room.radiance, {}, scratch, incident);
+                std::vector<Vec3> irradiance(mesh.sidedVertexCount());
+                applyTransfer(transfers[static_cast<std::size_t>(order - 1)], incident, irradiance);
+                return irradiance;
+            };
             for (int order = way.firstOrder; order <= kMaxShOrder; ++order) {
-                applyTransfer(computeTransfer(mesh, {.order = order}), light, irradiance);
-                const Errors e = errorsOf(truths, irradiance);
-                std::printf("%-14s %-16s %6d  %12.1f %%  %12.1f %%\n", place.name, way.name, order,
-                            100 * e.field, 100 * e.traced);
+                const std::vector<Vec3> all = light(IncidentEmitters::sampled, order);
+                const std::vector<Vec3> indirect = light(IncidentEmitters::none, order);
+                std::printf(
+                    "%-14s %-16s %6d %12.1f %% %12.1f %% %12.1f %%\n", place.name, way.name, order,
+                    100 * relativeError(truths, all, &Truth::field, &Truth::fieldError),
+                    100 * relativeError(truths, indirect, &Truth::indirect, &Truth::indirectError),
+                    100 * relativeError(truths, all, &Truth::traced, &Truth::tracedError));
             }
         }
     }

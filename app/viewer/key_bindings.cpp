@@ -64,6 +64,10 @@ std::vector<Binding> objectBindings() {
          .help = "motions of objects stand still, or go on",
          .keys = {letter('P')},
          .press = [](Viewer& v) { v.objects().setPlaying(!v.objects().playing()); }},
+        {.name = "V",
+         .help = "bake the room again with its objects and compare: beside it, by a wipe, end",
+         .keys = {letter('V')},
+         .press = [](Viewer& v) { v.compareNext(); }},
     };
 }
 

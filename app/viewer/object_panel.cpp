@@ -201,6 +201,8 @@ void drawObjectPanel(Viewer& viewer) {
     if (ImGui::Checkbox("keys move the object", &steered)) objects.toggleSubject();
     ImGui::SameLine();
     if (ImGui::Button("save")) viewer.saveObjects();
+    ImGui::SameLine();
+    if (ImGui::Button("compare")) viewer.compareNext();
     if (objects.selected()) drawSelected(viewer, *objects.selected());
 }
 

@@ -7,14 +7,7 @@
 namespace vlf::app {
 
 Session::Session(const SessionOptions& options)
-    : options_(options), log_({"objects", "room", "overlay"}) {
-    if (options.replay.empty()) return;
-    ModelLibrary library;
-    std::vector<std::string> warnings;
-    Walk walk = readWalk(options.replay, library, warnings);
-    path_ = std::move(walk.camera);
-    objects_ = std::move(walk.objects);
-}
+    : options_(options), log_({"objects", "room", "overlay"}) {}
 
 double Session::advance(double seconds) {
     const double before = seconds_;
@@ -28,17 +21,17 @@ double Session::advance(double seconds) {
 }
 
 std::optional<CameraPose> Session::pose() const {
-    if (!path_) return {};
-    return path_->at(pathSeconds());
+    if (!options_.replay) return {};
+    return options_.replay->at(pathSeconds());
 }
 
 double Session::pathSeconds() const {
-    const double duration = path_ ? path_->duration() : 0;
+    const double duration = options_.replay ? options_.replay->duration() : 0;
     return options_.loop && duration > 0 ? std::fmod(seconds_, duration) : seconds_;
 }
 
 bool Session::over() const {
-    return path_ && !options_.loop && seconds_ > path_->duration();
+    return options_.replay && !options_.loop && seconds_ > options_.replay->duration();
 }
 
 void Session::note(const FrameRecord& frame, bool jumped, const Objects& objects) {

@@ -13,20 +13,16 @@
 namespace vlf::app {
 
 struct SessionOptions {
-    std::string record;  ///< camera path to write; empty: none
-    std::string replay;  ///< camera path to follow; empty: the user walks
-    std::string log;     ///< frame log to write; empty: none
-    double fps = 0;      ///< frames a second of the session's time; 0: as fast as they come
-    bool loop = false;   ///< the replay begins again when it ends
+    std::string record;                ///< camera path to write; empty: none
+    std::optional<CameraPath> replay;  ///< camera path to follow; none: the user walks
+    std::string log;                   ///< frame log to write; empty: none
+    double fps = 0;     ///< frames a second of the session's time; 0: as fast as they come
+    bool loop = false;  ///< the replay begins again when it ends
 };
 
 class Session {
   public:
-    /// Reads the path to follow. Throws as readWalk does.
     explicit Session(const SessionOptions& options);
-
-    /// What the path that is followed has of objects.
-    const Scenario& objects() const { return objects_; }
 
     /// A frame begins, `seconds` after the one before; returns the time between the two in the
     /// session.
@@ -52,8 +48,6 @@ class Session {
 
   private:
     SessionOptions options_;
-    std::optional<CameraPath> path_;
-    Scenario objects_;
     PathRecorder recorder_;
     ObjectRecorder objectRecorder_;
     FrameLog log_;

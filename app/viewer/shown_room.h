@@ -30,6 +30,7 @@ class ShownRoom {
     void reloadShaders();
 
     const BakedRoom& room() const { return *room_; }
+    const std::shared_ptr<const BakedRoom>& shared() const { return room_; }
     Renderer& renderer() { return renderer_; }
 
   private:

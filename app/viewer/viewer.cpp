@@ -70,16 +70,6 @@ bool held(const Window& window, const Binding& binding) {
                        [&](Key key) { return window.held(key); });
 }
 
-/// Of the path that is followed, or else those of the options.
-Scenario objectsToShow(const ViewerOptions& options, const Session& session) {
-    if (session.objects().objects.empty()) return options.objects;
-    if (!options.objects.objects.empty())
-        throw InputError(options.session.replay +
-                         " holds objects of its own: leave out --object and --scenario, or delete "
-                         "\"objects\" from it and make its \"version\" 1");
-    return session.objects();
-}
-
 bool matches(const Binding& binding, const KeyPress& press) {
     return binding.press && binding.control.value_or(press.control) == press.control &&
            binding.shift.value_or(press.shift) == press.shift &&
@@ -97,9 +87,9 @@ Viewer::Viewer(std::shared_ptr<const BakedRoom> room, const ViewerOptions& optio
       shownRoom_(std::make_unique<ShownRoom>(room, options.renderer)),
       walk_(room, options.start, [this](const std::string& text) { say(text); }),
       session_(options.session),
-      objects_(objectsToShow(options, session_), options.models,
-               [this](const std::string& text) { say(text); }),
+      objects_(options.objects, options.models, [this](const std::string& text) { say(text); }),
       pointer_(objects_),
+      comparison_(options.renderer, [this](const std::string& text) { say(text); }),
       shaderWatch_(options.renderer.shaderFolder) {
     RoomPreferences here = memory_.room();
     if (options.startChosen) here.pose.reset();
@@ -127,7 +117,7 @@ void Viewer::frame(double seconds) {
     statistics_.add(seconds);
     reloadShaders(step);
     updateObjects();
-    drawRoom();
+    drawRoom(step);
     adaptExposure(step);
     writeWantedPicture();
     gui_.begin(shown_.panel && !window_->pointerCaptured());
@@ -173,6 +163,7 @@ void Viewer::updateObjects() {
     if (!objects_.room()) return;
     if (changed) shownRoom_->renderer().updateObjects(*objects_.room());
     objectsMs_ = millisecondsSince(start);
+    comparison_.update(shownRoom_->shared(), objects_);
 }
 
 void Viewer::note(double pathSeconds, double cpuMs, double totalMs) {
@@ -246,7 +237,7 @@ Screen Viewer::screen() const {
 }
 
 void Viewer::pointerPressed(const Vec2& at) {
-    if (!gui_.wantsPointer() && !window_->pointerCaptured())
+    if (!gui_.wantsPointer() && !window_->pointerCaptured() && !comparison_.shown())
         pointer_.press(screen(), pixels(at), window_->contentScale());
 }
 
@@ -344,7 +335,13 @@ void Viewer::reloadShaders(float seconds) {
 }
 
 /// A mode that this room cannot be shown in does not end the walk.
-void Viewer::drawRoom() {
+void Viewer::drawRoom(float seconds) {
+    if (comparison_.shown()) {
+        const gl::TimedPass pass(roomTimer_);
+        return comparison_.draw(*shownRoom_, walk_.camera(), walk_.settings(),
+                                window_->pixelWidth(), window_->pixelHeight(), window_->pointer().x,
+                                shownRoom_->renderer().lightChanges(), seconds);
+    }
     const View view = viewOf(walk_.camera(), window_->pixelWidth(), window_->pixelHeight(),
                              shownRoom_->renderer().nearest());
     const gl::TimedPass pass(roomTimer_);
@@ -378,6 +375,7 @@ void Viewer::drawMessages(float seconds) {
 /// What is under way, in a line.
 std::string Viewer::status() const {
     std::string line = live_ ? live_->activity() : std::string();
+    if (line.empty()) line = comparison_.status();
     const std::optional<double> refined = shownRoom_->refined();
     if (line.empty() && refined && *refined < 1)
         line = fmt::format("refining {:.0f} %", 100 * *refined);
@@ -394,7 +392,10 @@ void Viewer::drawObjectGizmo() {
 }
 
 void Viewer::drawOverlays() {
-    drawObjectGizmo();
+    if (comparison_.shown())
+        comparison_.drawOverlay();
+    else
+        drawObjectGizmo();
     if (shown_.help)
         drawHelp();
     else if (shown_.panel)

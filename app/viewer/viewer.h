@@ -1,6 +1,7 @@
 #pragma once
 // The walkthrough window: each frame it takes what the user does, moves, draws and shows.
 
+#include "comparison.h"
 #include "folder_watch.h"
 #include "gui.h"
 #include "live_view.h"
@@ -77,6 +78,8 @@ class Viewer : private WindowListener {
     /// Adds an object that is written as for --object; before the camera, if no place is stated.
     /// What is wrong with it is said.
     void addObject(const std::string& text);
+    /// The next layout of the comparison with the room baked again.
+    void compareNext() { comparison_.next(shownRoom_->shared(), objects_); }
     /// Writes the objects as a scenario of a new name.
     void saveObjects();
     /// What fails is said.
@@ -109,7 +112,7 @@ class Viewer : private WindowListener {
     void drawObjectGizmo();
     void reloadShaders(float seconds);
     void adaptExposure(float seconds);
-    void drawRoom();
+    void drawRoom(float seconds);
     void drawOverlays();
     void drawMessages(float seconds);
     std::string status() const;
@@ -127,6 +130,7 @@ class Viewer : private WindowListener {
     Session session_;
     Objects objects_;
     ObjectPointer pointer_;
+    Comparison comparison_;
     std::optional<LiveView> live_;
     Shown shown_;
     FrameStatistics statistics_;

@@ -9,6 +9,7 @@ namespace vlf {
 namespace {
 
 constexpr float kReach = 8;        // pixels from a line that still take hold of it
+constexpr float kBehind = 2;       // pixels by which rings count as farther than arms
 constexpr float kArmFrom = 0.15f;  // where an arm begins, in arms
 constexpr float kGrazing = 0.05f;  // sine of an angle below which lines count as parallel
 constexpr float kNowhere = std::numeric_limits<float>::infinity();
@@ -110,9 +111,11 @@ GizmoHandle Gizmo::pick(const Vec2& pointer) const {
         if (distance < least) least = distance, nearest = {part, i};
     };
     for (int i = 0; i < 3; ++i)
-        offer(distanceToLine(centre() + kArmFrom * arm_ * axis(i), armEnd(i), pointer),
-              GizmoPart::arm, i);
-    for (int i = 0; i < 3; ++i) offer(distanceToRing(i, pointer), GizmoPart::ring, i);
+        if (alongArm(i, pointer))
+            offer(distanceToLine(centre() + kArmFrom * arm_ * axis(i), armEnd(i), pointer),
+                  GizmoPart::arm, i);
+    for (int i = 0; i < 3; ++i)
+        if (onPlane(i, pointer)) offer(distanceToRing(i, pointer) + kBehind, GizmoPart::ring, i);
     return nearest;
 }
 

@@ -64,7 +64,8 @@ class Gizmo {
     std::array<Vec3, 4> plane(int axis) const;  ///< corners of the square across an axis
     Vec3 ringPoint(int axis, int i) const;      ///< of kRingPoints
 
-    /// What is under the pointer; the nearest within some pixels.
+    /// What is under the pointer, of the parts that a drag would move; the nearest within some
+    /// pixels.
     GizmoHandle pick(const Vec2& pointer) const;
 
     /// The pose after the handle was dragged from one point to another, from the pose that the

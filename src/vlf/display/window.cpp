@@ -128,7 +128,7 @@ void Window::listen() {
         if (button == GLFW_MOUSE_BUTTON_LEFT)
             self(w).pointerEvents_.push_back(
                 {action == GLFW_PRESS ? PointerAction::press : PointerAction::release,
-                 self(w).pointer(), Vec2(0)});
+                 self(w).placeOfEvent(), Vec2(0)});
     });
     glfwSetScrollCallback(window_, [](GLFWwindow* w, double, double steps) {
         self(w).scrolled_ += static_cast<float>(steps);
@@ -255,6 +255,11 @@ Vec2 Window::inWindow(const Vec2& desktop) const {
     int width = 1, height = 1;
     glfwGetWindowSize(window_, &width, &height);
     return desktop / Vec2(std::max(width, 1), std::max(height, 1));
+}
+
+/// Where the pointer was, by the events so far: asked for, it is where it has gone since.
+Vec2 Window::placeOfEvent() const {
+    return pointer_ ? inWindow(*pointer_) : pointer();
 }
 
 Vec2 Window::pointer() const {

@@ -108,6 +108,7 @@ class Window {
     void noteDrag(const Vec2& from, const Vec2& to);
     void tellPointer(WindowListener& listener);
     Vec2 inWindow(const Vec2& desktop) const;
+    Vec2 placeOfEvent() const;
     void forgetPointer();
 
     GLFWwindow* window_ = nullptr;

@@ -6,15 +6,20 @@
 #include "vlf/math/random.h"
 #include "vlf/math/sampling.h"
 #include "vlf/propagate/ray_gather.h"
+#include "vlf/propagate/smooth_indirect.h"
 
 #include <algorithm>
+#include <array>
 
 namespace vlf {
 
 namespace {
 
-constexpr int kLines = 129, kCells = 128;  // as the bake's coarse sweeps
-constexpr std::size_t kAccumulators = 4;   // fixed: the sum is the same for any number of threads
+/// Lines of the bounces. The first has bright spots next to objects, which few directions would
+/// show one by one.
+constexpr std::array<int, 3> kLines{513, 129, 129};
+constexpr int kCells = 128;
+constexpr std::size_t kAccumulators = 8;  // fixed: the sum is the same for any number of threads
 
 }  // namespace
 
@@ -27,9 +32,18 @@ ChangeSweep::ChangeSweep(const LitRoom& room)
     sources_.allApart = true;  // emission is no part of the change
 }
 
-void ChangeSweep::sweep(const LitRoom& room, int number) {
+/// Radiance by irradiance_.
+void ChangeSweep::emit(const LitRoom& room) {
+    const Unwrap& unwrap = room.texels.unwrap;
+    for (const std::uint32_t t : unwrap.texels)
+        radiance_.set(t, room.texels.reflectance[t] * irradiance_[t] / kPi, 1);
+    for (const auto& [texel, proxy] : unwrap.proxies) radiance_.set(texel, radiance_.rgb(proxy), 1);
+    radiance_.set(radiance_.texelCount(), Vec3(0), 1);
+}
+
+void ChangeSweep::sweep(const LitRoom& room, int lines, int number) {
     const RoomTexels& texels = room.texels;
-    const DirectionSet set(kLines);
+    const DirectionSet set(lines);
     RandomStream turns(static_cast<std::uint64_t>(number), ~0ull);
     const Mat3 turn = sampleUniformRotation(Vec3(turns.next2(), turns.next()));
     parallelFor(kAccumulators, [&](std::size_t a) {
@@ -37,7 +51,8 @@ void ChangeSweep::sweep(const LitRoom& room, int number) {
         SweepScratch scratch;
         RayGatherer mirrors(room.scene, room.rays, texels.unwrap, sources_);
         std::vector<MirrorSight> sights;
-        for (auto line = static_cast<std::uint32_t>(a); line < kLines; line += kAccumulators) {
+        for (auto line = static_cast<std::uint32_t>(a); line < static_cast<std::uint32_t>(lines);
+             line += kAccumulators) {
             RandomStream random(static_cast<std::uint64_t>(number), line);
             const float roll = 2 * kPi * random.next();
             const ParallelSubfield subfield = makeSubfield(texels.frame, turn * set.direction(line),
@@ -49,25 +64,28 @@ void ChangeSweep::sweep(const LitRoom& room, int number) {
     });
 }
 
-void ChangeSweep::add(const std::vector<TexelChange>& light, const LitRoom& room, int bounces,
-                      RoomChange& change) {
-    const Unwrap& unwrap = room.texels.unwrap;
+void ChangeSweep::bounce(const LitRoom& room, std::vector<TexelChange>& light) {
+    const RoomTexels& texels = room.texels;
     std::fill(irradiance_.begin(), irradiance_.end(), Vec3(0));
     for (const TexelChange& t : light) irradiance_[t.texel] += t.irradiance;
-    for (int bounce = 0; bounce < bounces; ++bounce) {
-        for (const std::uint32_t t : unwrap.texels)
-            radiance_.set(t, room.texels.reflectance[t] * irradiance_[t] / kPi, 1);
-        for (const auto& [texel, proxy] : unwrap.proxies)
-            radiance_.set(texel, radiance_.rgb(proxy), 1);
-        radiance_.set(radiance_.texelCount(), Vec3(0), 1);
-        sweep(room, bounce);
-        const TexelBuffer gathered = sumInOrder(parts_);
-        for (const std::uint32_t t : unwrap.texels) {
+    for (std::size_t bounce = 0; bounce < kLines.size(); ++bounce) {
+        emit(room);
+        sweep(room, kLines[bounce], static_cast<int>(bounce));
+        TexelBuffer gathered = sumInOrder(parts_);
+        smoothIndirect(texels.unwrap, parts_, gathered);
+        for (const std::uint32_t t : texels.unwrap.texels) {
             const float samples = gathered.weight(t);
             irradiance_[t] = samples > 0 ? kPi * gathered.rgb(t) / samples : Vec3(0);
-            if (irradiance_[t] != Vec3(0)) change.add(t, irradiance_[t]);
+            if (irradiance_[t] != Vec3(0)) light.push_back({t, irradiance_[t]});
         }
     }
+    // What still bounces is spread evenly.
+    Vec3 flux(0);
+    for (const std::uint32_t t : texels.unwrap.texels)
+        flux += texels.area[t] * texels.reflectance[t] * irradiance_[t];
+    const Vec3 gain = 1.0f / glm::max(Vec3(0.05f), Vec3(1) - texels.meanReflectance);
+    const Vec3 rest = flux * gain / std::max(texels.totalArea, 1e-20f);
+    for (const std::uint32_t t : texels.unwrap.texels) light.push_back({t, rest});
 }
 
 }  // namespace vlf

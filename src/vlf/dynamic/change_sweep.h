@@ -15,12 +15,12 @@ class ChangeSweep {
   public:
     explicit ChangeSweep(const LitRoom& room);
 
-    /// Adds to `change` what `light` gives by `bounces` bounces.
-    void add(const std::vector<TexelChange>& light, const LitRoom& room, int bounces,
-             RoomChange& change);
+    /// Appends to `light` all that it becomes by bouncing.
+    void bounce(const LitRoom& room, std::vector<TexelChange>& light);
 
   private:
-    void sweep(const LitRoom& room, int number);
+    void emit(const LitRoom& room);
+    void sweep(const LitRoom& room, int lines, int number);
 
     BundleFaces faces_;
     std::vector<Vec3> irradiance_;  ///< by atlas texel, of the bounce before

@@ -216,6 +216,7 @@ void DynamicRoom::setViewers(std::span<const Vec3> eyes) {
 
 void DynamicRoom::setRoomIrradiance(const IrradianceAtlas& atlas) {
     impl_->exchange.setRoomLight(atlas);
+    for (Impl::Entry& entry : impl_->entries) entry.light->forget();
     impl_->renumbered();
     ++impl_->lightVersion;
 }

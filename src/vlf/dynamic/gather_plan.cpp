@@ -1,9 +1,12 @@
 #include "vlf/dynamic/gather_plan.h"
 
 #include "vlf/base/parallel.h"
+#include "vlf/dynamic/turned_set.h"
 #include "vlf/field/direction_set.h"
+#include "vlf/math/sampling.h"
 
 #include <algorithm>
+#include <functional>
 #include <map>
 #include <tuple>
 #include <utility>
@@ -15,11 +18,15 @@ namespace {
 constexpr float kMinCosine = 1e-4f;
 constexpr float kContact = 4;  // ray epsilons
 constexpr std::size_t kDirectionsPerBlock = 8;
+constexpr int kOwnBounces = 6;        // of light from one part of the object to another
+constexpr float kLeastShare = 0.25f;  // of the mean chance, for dark directions
 
 /// What one direction contributes to the plan.
 struct DirectionPart {
-    std::vector<std::uint32_t> launches;                               ///< receivers
-    std::vector<std::pair<std::uint32_t, GatherPlan::Entry>> entries;  ///< by receiver
+    using Entries = std::vector<std::pair<std::uint32_t, GatherPlan::Entry>>;  ///< by receiver
+
+    std::vector<std::uint32_t> launches;  ///< receivers
+    Entries outside, inside;
 };
 
 /// Patches of receivers that lie close together and face alike: the cluster of each.
@@ -94,8 +101,8 @@ DirectionPart planDirection(const ObjectReceivers& receivers, const Clusters& cl
     std::vector<Hit> hits(rays.size());
     mesh.rays.closest(rays, hits);
     DirectionPart part;
-    const auto add = [&](std::uint32_t r, std::uint32_t from) {
-        part.entries.emplace_back(
+    const auto add = [&](DirectionPart::Entries& entries, std::uint32_t r, std::uint32_t from) {
+        entries.emplace_back(
             r, GatherPlan::Entry{from, weight * glm::dot(receivers.normal[r], direction)});
     };
     std::vector<std::uint32_t> open, launchOf;
@@ -106,7 +113,7 @@ DirectionPart planDirection(const ObjectReceivers& receivers, const Clusters& cl
         }
         const bool front = glm::dot(areaVector(mesh.scene, hits[i].triangle), direction) < 0;
         const std::uint32_t seen = receivers.at(hits[i].triangle, hits[i].barycentric, front);
-        if (seen != ObjectReceivers::kNone) add(above[i], GatherPlan::kSelf | seen);
+        if (seen != ObjectReceivers::kNone) add(part.inside, above[i], seen);
     }
     if (!clusters.of.empty()) {
         launchFromClusters(receivers, clusters, open, launchOf, part);
@@ -116,32 +123,42 @@ DirectionPart planDirection(const ObjectReceivers& receivers, const Clusters& cl
             part.launches.push_back(r);
         }
     }
-    for (std::size_t i = 0; i < open.size(); ++i) add(open[i], launchOf[i]);
+    for (std::size_t i = 0; i < open.size(); ++i) add(part.outside, open[i], launchOf[i]);
     return part;
 }
 
-/// Puts the directions' parts together, entries by receiver.
+/// Entries of all parts by receiver; `shift` is added to where those of a part come from.
+GatherPlan::Entries sortByReceiver(const std::vector<DirectionPart>& parts,
+                                   DirectionPart::Entries DirectionPart::*entries,
+                                   std::size_t receivers,
+                                   const std::function<std::uint32_t(std::size_t)>& shift) {
+    GatherPlan::Entries sorted;
+    sorted.first.assign(receivers + 1, 0);
+    for (const DirectionPart& part : parts)
+        for (const auto& [receiver, entry] : part.*entries) ++sorted.first[receiver + 1];
+    for (std::size_t r = 0; r < receivers; ++r) sorted.first[r + 1] += sorted.first[r];
+    sorted.all.resize(sorted.first.back());
+    std::vector<std::uint32_t> next(sorted.first.begin(), sorted.first.end() - 1);
+    for (std::size_t d = 0; d < parts.size(); ++d)
+        for (const auto& [receiver, entry] : parts[d].*entries)
+            sorted.all[next[receiver]++] = {entry.from + shift(d), entry.weight};
+    return sorted;
+}
+
 void assemble(const std::vector<DirectionPart>& parts, const std::vector<Vec3>& positions,
               GatherPlan& plan) {
-    const std::size_t receivers = positions.size();
     plan.firstLaunch.assign(1, 0);
-    plan.firstEntry.assign(receivers + 1, 0);
     for (const DirectionPart& part : parts) {
         for (const std::uint32_t r : part.launches) {
             plan.launches.push_back(positions[r]);
             plan.launchReceiver.push_back(r);
         }
         plan.firstLaunch.push_back(static_cast<std::uint32_t>(plan.launches.size()));
-        for (const auto& [receiver, entry] : part.entries) ++plan.firstEntry[receiver + 1];
     }
-    for (std::size_t r = 0; r < receivers; ++r) plan.firstEntry[r + 1] += plan.firstEntry[r];
-    plan.entries.resize(plan.firstEntry.back());
-    std::vector<std::uint32_t> next(plan.firstEntry.begin(), plan.firstEntry.end() - 1);
-    for (std::size_t d = 0; d < parts.size(); ++d)
-        for (auto [receiver, entry] : parts[d].entries) {
-            if (!(entry.from & GatherPlan::kSelf)) entry.from += plan.firstLaunch[d];
-            plan.entries[next[receiver]++] = entry;
-        }
+    plan.outside = sortByReceiver(parts, &DirectionPart::outside, positions.size(),
+                                  [&](std::size_t d) { return plan.firstLaunch[d]; });
+    plan.inside = sortByReceiver(parts, &DirectionPart::inside, positions.size(),
+                                 [](std::size_t) { return 0u; });
 }
 
 }  // namespace
@@ -149,10 +166,11 @@ void assemble(const std::vector<DirectionPart>& parts, const std::vector<Vec3>& 
 GatherPlan makeGatherPlan(const ObjectReceivers& receivers, const Sphere& bounds,
                           const GatherPlanParams& params) {
     const DirectionSet set(params.lines);
+    const Mat3 turn = sampleUniformRotation(kTurn);
     GatherPlan plan;
     std::vector<float> weights;
     for (int d = 0; d < set.directionCount(); d += params.step) {
-        plan.directions.push_back(set.direction(static_cast<std::uint32_t>(d)));
+        plan.directions.push_back(turn * set.direction(static_cast<std::uint32_t>(d)));
         weights.push_back(set.weight(static_cast<std::uint32_t>(d)));
     }
     Clusters clusters;
@@ -166,6 +184,38 @@ GatherPlan makeGatherPlan(const ObjectReceivers& receivers, const Sphere& bounds
     });
     assemble(parts, receivers.position, plan);
     return plan;
+}
+
+void GatherSights::pickDirections(const GatherPlan& plan, const Vec3& centre, int count,
+                                  const Pose& pose, const LitRoom& room,
+                                  const SightObjects& objects) {
+    chances_.clear();
+    if (count <= 0) return;
+    std::vector<Ray> rays;
+    for (const Vec3& d : plan.directions) rays.push_back({pose.point(centre), pose.direction(d)});
+    SightTracer tracer(room.scene, room.rays, room.texels);
+    tracer.setObjects(objects);
+    Sights sights;
+    tracer.trace(rays, sights);
+    chances_.assign(rays.size(), 0);
+    for (std::size_t d = 0; d < rays.size(); ++d)
+        if (sights.texel[d] != kNoTexel) chances_[d] = luminance(room.radiance[sights.texel[d]]);
+    for (const Sight& sight : sights.others)
+        chances_[sight.ray] +=
+            luminance(sight.throughput * diffuseRadiance(sight, room.radiance, objects.lit));
+    float sum = 0;
+    for (const float c : chances_) sum += c;
+    const auto directions = static_cast<float>(chances_.size());
+    const float least = sum > 0 ? kLeastShare * sum / directions : 1;
+    sum = std::max(sum + directions * least, 1e-30f);
+    // Systematic sampling: where the running sum passes a whole number a direction is picked.
+    float passed = 0.5f;
+    for (float& c : chances_) {
+        const float chance = std::min(1.0f, static_cast<float>(count) * (c + least) / sum);
+        passed += chance;
+        c = passed >= 1 ? chance : 0;
+        if (passed >= 1) passed -= 1;
+    }
 }
 
 void GatherSights::trace(const GatherPlan& plan, const Pose& pose, const LitRoom& room,
@@ -183,8 +233,10 @@ void GatherSights::trace(const GatherPlan& plan, const Pose& pose, const LitRoom
         thread_local std::vector<Ray> queue;
         thread_local std::vector<std::uint32_t> launchOf;
         thread_local Sights sights;
-        queue.clear(), launchOf.clear();
+        thread_local std::vector<float> scaleOf;
+        queue.clear(), launchOf.clear(), scaleOf.clear();
         for (std::size_t d = block * kDirectionsPerBlock; d < end; ++d) {
+            if (chance(d) <= 0) continue;
             const Vec3 direction = pose.direction(plan.directions[d]);
             // From just within the object: what touches it is seen.
             const Vec3 back = -kContact * room.rays.epsilon() * direction;
@@ -192,6 +244,7 @@ void GatherSights::trace(const GatherPlan& plan, const Pose& pose, const LitRoom
                 if (!wants(plan.launchReceiver[i])) continue;
                 queue.push_back({pose.point(plan.launches[i]) + back, direction});
                 launchOf.push_back(i);
+                scaleOf.push_back(1 / chance(d));
             }
         }
         SightTracer tracer(room.scene, room.rays, room.texels);
@@ -212,45 +265,63 @@ void GatherSights::trace(const GatherPlan& plan, const Pose& pose, const LitRoom
                 if (!sight.inMirror) valid_[launchOf[sight.ray]] = 0;
                 continue;
             }
-            others_[block].push_back({launchOf[sight.ray], sight});
+            others_[block].push_back({launchOf[sight.ray], scaleOf[sight.ray], sight});
             if (sight.emissionApart && !emission) others_[block].back().sight.emission = Vec3(0);
         }
     });
 }
 
-void GatherSights::findRadiance(std::span<const Vec3> texelRadiance,
+/// Of directions that were not followed nothing is known but that they are likely samples.
+void GatherSights::findRadiance(const GatherPlan& plan, std::span<const Vec3> texelRadiance,
                                 std::span<const LitObject> lit) {
     radiance_.resize(texel_.size());
-    for (std::size_t i = 0; i < texel_.size(); ++i)
-        radiance_[i] = texel_[i] == kNoTexel ? Vec4(0, 0, 0, valid_[i])
-                                             : Vec4(texelRadiance[texel_[i]], valid_[i]);
+    for (std::size_t d = 0; d < plan.directions.size(); ++d) {
+        const float scale = chance(d) > 0 ? 1 / chance(d) : 0;
+        for (std::uint32_t i = plan.firstLaunch[d]; i < plan.firstLaunch[d + 1]; ++i)
+            radiance_[i] = Vec4(texel_[i] == kNoTexel ? Vec3(0) : scale * texelRadiance[texel_[i]],
+                                valid_[i] ? 1.0f : 1 - scale);
+    }
     for (const std::vector<Seen>& block : others_)
         for (const Seen& seen : block)
             radiance_[seen.launch] +=
-                Vec4(seen.sight.throughput *
+                Vec4(seen.scale * seen.sight.throughput *
                          (diffuseRadiance(seen.sight, texelRadiance, lit) + seen.sight.emission),
                      0);
 }
 
 void GatherSights::gather(const GatherPlan& plan, const ObjectReceivers& receivers,
                           std::span<const Vec3> texelRadiance, std::span<const LitObject> lit,
-                          std::span<const Vec3> own, std::span<Vec3> irradiance) {
-    findRadiance(texelRadiance, lit);
-    ownRadiance_.resize(receivers.size());
-    for (std::size_t r = 0; r < receivers.size(); ++r)
-        ownRadiance_[r] = receivers.reflectance[r] * own[r] / kPi;
+                          std::span<const Vec3> direct, std::span<Vec3> irradiance) {
+    findRadiance(plan, texelRadiance, lit);
+    outside_.resize(receivers.size());
     parallelFor(receivers.size(), 16, [&](std::size_t r) {
         if (!wants(r)) return;
         Vec4 sum(0);
-        for (std::uint32_t e = plan.firstEntry[r]; e < plan.firstEntry[r + 1]; ++e) {
-            const GatherPlan::Entry& entry = plan.entries[e];
-            if (entry.from & GatherPlan::kSelf)
-                sum += entry.weight * Vec4(ownRadiance_[entry.from & ~GatherPlan::kSelf], 1);
-            else
-                sum += entry.weight * radiance_[entry.from];
-        }
-        if (sum.w > 0) irradiance[r] += kPi * Vec3(sum) / sum.w;
+        for (const GatherPlan::Entry& entry : plan.outside.of(r))
+            sum += entry.weight * radiance_[entry.from];
+        for (const GatherPlan::Entry& entry : plan.inside.of(r)) sum.w += entry.weight;
+        const float norm = sum.w > 0 ? kPi / sum.w : 0;
+        outside_[r] = Vec4(norm * Vec3(sum), norm);
+        irradiance[r] = Vec3(outside_[r]);
     });
+    if (!plan.inside.all.empty()) reflectWithin(plan, receivers, direct, irradiance);
+}
+
+/// Jacobi iterations of the light between receivers.
+void GatherSights::reflectWithin(const GatherPlan& plan, const ObjectReceivers& receivers,
+                                 std::span<const Vec3> direct, std::span<Vec3> irradiance) {
+    ownRadiance_.resize(receivers.size());
+    for (int bounce = 0; bounce < kOwnBounces; ++bounce) {
+        for (std::size_t r = 0; r < receivers.size(); ++r)
+            ownRadiance_[r] = receivers.reflectance[r] * (irradiance[r] + direct[r]) / kPi;
+        parallelFor(receivers.size(), 16, [&](std::size_t r) {
+            if (!wants(r)) return;
+            Vec3 sum(0);
+            for (const GatherPlan::Entry& entry : plan.inside.of(r))
+                sum += entry.weight * ownRadiance_[entry.from];
+            irradiance[r] = Vec3(outside_[r]) + outside_[r].w * sum;
+        });
+    }
 }
 
 }  // namespace vlf

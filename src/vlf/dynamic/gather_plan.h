@@ -30,19 +30,27 @@ struct GatherPlanParams {
 
 /// Model space; shared by all objects of one model and settings.
 struct GatherPlan {
-    /// Where a receiver's light from one direction comes from.
+    /// Where a receiver's light from one direction comes from: a launch, or another receiver.
     struct Entry {
-        std::uint32_t from = 0;  ///< launch; or, with kSelf, the receiver that is seen there
-        float weight = 0;        ///< (n·ω)⁺ w
+        std::uint32_t from = 0;
+        float weight = 0;  ///< (n·ω)⁺ w
     };
-    static constexpr std::uint32_t kSelf = 1u << 31;
+    /// Those of receiver r: from[first[r]] on.
+    struct Entries {
+        std::vector<std::uint32_t> first;
+        std::vector<Entry> all;
+
+        std::span<const Entry> of(std::size_t r) const {
+            return {all.data() + first[r], all.data() + first[r + 1]};
+        }
+    };
 
     std::vector<Vec3> directions;               ///< oriented, unit
     std::vector<std::uint32_t> firstLaunch;     ///< launches of direction d: firstLaunch[d] on
     std::vector<Vec3> launches;                 ///< points on the object
     std::vector<std::uint32_t> launchReceiver;  ///< the receiver that each is at
-    std::vector<std::uint32_t> firstEntry;      ///< entries of receiver r: firstEntry[r] on
-    std::vector<Entry> entries;
+    Entries outside;                            ///< from launches
+    Entries inside;  ///< from receivers: parts of the object that are seen
 };
 
 GatherPlan makeGatherPlan(const ObjectReceivers& receivers, const Sphere& bounds,
@@ -51,6 +59,12 @@ GatherPlan makeGatherPlan(const ObjectReceivers& receivers, const Sphere& bounds
 /// What the launches of a plan see, to be turned into light as often as that changes.
 class GatherSights {
   public:
+    /// Of the directions about `count` are to be followed, picked by how bright it is along them
+    /// from `centre` (model space); the others' share is made up for, without bias. To be called
+    /// before each trace; a count of 0 picks all.
+    void pickDirections(const GatherPlan& plan, const Vec3& centre, int count, const Pose& pose,
+                        const LitRoom& room, const SightObjects& objects);
+
     /// Traces them for an object in this pose. `wanted`, by receiver: 0 where light need not be
     /// known; empty: everywhere. `emission`: of the room's emitters as they are met;
     /// otherwise only where direct light does not have it.
@@ -58,27 +72,35 @@ class GatherSights {
                const SightObjects& objects, const Coverage& coverage,
                std::span<const std::uint8_t> wanted, bool emission);
 
-    /// Irradiance at the receivers, added to what is in `irradiance`, but for those that the trace
-    /// left out. `own`: irradiance at the receivers as parts of the object see it.
+    /// Indirect irradiance at the receivers but those that the trace left out, light between parts
+    /// of the object included, which `direct` light starts, too.
     void gather(const GatherPlan& plan, const ObjectReceivers& receivers,
                 std::span<const Vec3> texelRadiance, std::span<const LitObject> lit,
-                std::span<const Vec3> own, std::span<Vec3> irradiance);
+                std::span<const Vec3> direct, std::span<Vec3> irradiance);
 
   private:
     struct Seen {
         std::uint32_t launch;
+        float scale;  ///< one by the chance
         Sight sight;
     };
 
     bool wants(std::size_t receiver) const { return wanted_.empty() || wanted_[receiver]; }
-    void findRadiance(std::span<const Vec3> texelRadiance, std::span<const LitObject> lit);
+    float chance(std::size_t direction) const { return chances_.empty() ? 1 : chances_[direction]; }
+    void reflectWithin(const GatherPlan& plan, const ObjectReceivers& receivers,
+                       std::span<const Vec3> direct, std::span<Vec3> irradiance);
+    void findRadiance(const GatherPlan& plan, std::span<const Vec3> texelRadiance,
+                      std::span<const LitObject> lit);
 
+    std::vector<float> chances_;  ///< by direction, of being followed; 0: is not; empty: all are
     std::vector<std::uint8_t> wanted_;
     std::vector<std::uint32_t> texel_;  ///< by launch: seen at once and without emission
     std::vector<std::uint8_t> valid_;
     std::vector<std::vector<Seen>> others_;  ///< by block
-    std::vector<Vec3> ownRadiance_;          ///< by receiver
-    std::vector<Vec4> radiance_;             ///< by launch; w: 1, or 0 where it is no sample
+    std::vector<Vec4> outside_;  ///< by receiver: irradiance from without; that of unit radiance
+                                 ///< from an entry of unit weight
+    std::vector<Vec3> ownRadiance_;  ///< by receiver
+    std::vector<Vec4> radiance_;     ///< by launch; w: 1, or 0 where it is no sample
 };
 
 }  // namespace vlf

@@ -117,12 +117,11 @@ IncidentLightFinder::IncidentLightFinder(const Scene& scene, const RayScene& ray
       rays_(rays),
       room_(room),
       largeRadius_(settings.largeFrom * room.frame.radius),
-      emittersApart_(settings.emitterPoints > 0),
+      emitters_(settings.emitters),
       middle_(makePattern(scene, room.sources, settings.lines, settings.emitterPoints, 0)) {
     for (int i = 0; i < 8; ++i)
         corners_[static_cast<std::size_t>(i)] =
-            makePattern(scene, room.sources, settings.cornerLines,
-                        emittersApart_ ? settings.cornerEmitterPoints : 0, i);
+            makePattern(scene, room.sources, settings.cornerLines, settings.cornerEmitterPoints, i);
 }
 
 /// Each turned its own way: what too few directions get wrong is not the same at all corners.
@@ -142,7 +141,7 @@ IncidentLightFinder::Pattern IncidentLightFinder::makePattern(const Scene& scene
         solidAngles.push_back(set.weight(d));
     }
     pattern.weights = fittingWeights(pattern.directions, solidAngles);
-    if (emitterPoints > 0) pattern.emitters = spreadPoints(scene, sources, emitterPoints, number);
+    pattern.emitters = spreadPoints(scene, sources, emitterPoints, number);
     return pattern;
 }
 
@@ -161,7 +160,7 @@ void IncidentLightFinder::look(const Pattern& pattern, std::span<const Vec3> rad
     } else {
         scratch.hits.clear();
     }
-    const bool inMirrorsApart = pattern.emitters.withImages;
+    const bool allImages = emitters_ == IncidentEmitters::none || pattern.emitters.withImages;
     scratch.tracer.trace(scratch.rays, scratch.sights);
     for (std::size_t i = 0; i < scratch.rays.size(); ++i) {
         if (scratch.sights.texel[i] == kNoTexel) continue;
@@ -169,8 +168,8 @@ void IncidentLightFinder::look(const Pattern& pattern, std::span<const Vec3> rad
         if (!scratch.hits.empty()) scratch.hits[i] = {};
     }
     for (const Sight& sight : scratch.sights.others) {
-        const bool apart =
-            emittersApart_ && (sight.inMirror ? inMirrorsApart && sight.emissionApart : true);
+        const bool apart = emitters_ != IncidentEmitters::met && sight.emissionApart &&
+                           (allImages || !sight.inMirror);
         Vec3 light = diffuseRadiance(sight, radiance, {});
         if (!apart) light += sight.emission;
         scratch.seen[sight.ray] += sight.throughput * light;
@@ -252,7 +251,7 @@ Sh<Vec3> IncidentLightFinder::sample(const Vec3& point, const Pattern& pattern,
     Sh<Vec3> light{};
     for (std::size_t i = 0; i < pattern.directions.size(); ++i)
         for (int f = 0; f < kMaxShCount; ++f) light[f] += pattern.weights[i][f] * scratch.seen[i];
-    if (emittersApart_) addEmitters(point, pattern, body, scratch, light);
+    if (emitters_ == IncidentEmitters::sampled) addEmitters(point, pattern, body, scratch, light);
     return light;
 }
 

@@ -16,12 +16,20 @@
 
 namespace vlf {
 
+/// How emitters count.
+enum class IncidentEmitters {
+    sampled,  ///< at points of theirs
+    met,      ///< where directions happen to meet them
+    none,     ///< not at all: their light is to be sampled at the vertices, as LightGatherer does
+};
+
 struct IncidentSettings {
-    int lines = 129;         ///< of the direction set at the middle of a small object
-    int cornerLines = 33;    ///< at each corner of a large one
-    int emitterPoints = 16;  ///< of all emitters, at the middle; 0: emitters as directions meet
-    int cornerEmitterPoints = 8;
-    float largeFrom = 0.02f;  ///< radius of a large object, relative to the room's
+    int lines = 129;       ///< of the direction set at the middle of a small object
+    int cornerLines = 33;  ///< at each corner of a large one
+    IncidentEmitters emitters = IncidentEmitters::sampled;
+    int emitterPoints = 16;       ///< of all emitters, at the middle
+    int cornerEmitterPoints = 8;  ///< at each corner
+    float largeFrom = 0.02f;      ///< radius of a large object, relative to the room's
 };
 
 /// Incident radiance in an object's space.
@@ -93,7 +101,7 @@ class IncidentLightFinder {
     const RayScene& rays_;
     const RoomTexels& room_;
     float largeRadius_;
-    bool emittersApart_;
+    IncidentEmitters emitters_;
     Pattern middle_;
     std::array<Pattern, 8> corners_;
 };

@@ -9,7 +9,8 @@
 //   4. exchange: object light from the room's, the room's from the objects', what has changed
 //      bouncing on (change_bounce.h), and the objects' once more.
 //
-// No step depends on the update before, so that the same poses give the same light.
+// No step depends on the update before (but for GatherSettings::cache), so that the same poses give
+// the same light.
 
 #include "vlf/dynamic/light_exchange.h"
 
@@ -24,10 +25,7 @@ namespace vlf {
 
 namespace {
 
-constexpr int kRounds = 1;              // of indirect light, beyond the first
 constexpr int kShadowSamples = 4;       // of a texel, for each of an object's own
-constexpr int kEmissionSamples = 8;     // of a texel towards an object that emits
-constexpr int kEmissionBounces = 3;     // by sweeps
 constexpr float kLeastAmbient = 5e-4f;  // of the room's mean irradiance
 
 class Stopwatch {
@@ -144,51 +142,62 @@ void LightExchange::findShadows() {
     }
     for (const auto& emitters : emitters_)
         if (emitters && takesDirectLight(*bodies_[emitters->number].object))
-            findEmittedLight(*emitters, scene_, roomRays_, texels_, coverage_,
-                             occluderOf(instances_), kEmissionSamples, emitted_);
+            findEmittedLight(*emitters, scene_, roomRays_, texels_, coverage_, instances_,
+                             emitted_);
+    if (emitted_.empty()) return;
+    if (!sweep_) sweep_.emplace(litRoom());
+    sweep_->bounce(litRoom(), emitted_);
 }
 
+/// Objects that change the room's indirect light are lit by the room without it first, and then by
+/// what they and their shadows have made of it.
 void LightExchange::exchange(const Surroundings& around) {
     const bool indirect = std::any_of(bodies_.begin(), bodies_.end(),
                                       [](const Body& body) { return body.light->changesRoom(); });
+    const bool changes = indirect || !shadows_.empty() || !emitted_.empty();
+    roomChanges_ = std::exchange(changedBefore_, changes) || changes;
     bounce_.clear();
-    changeRoom(!indirect && !shadows_.empty());
-    findObjectLight(around);
-    if (!indirect) return;
-    for (int round = 0; round < kRounds; ++round) {
-        changeRoom(round == 0);
-        findObjectLight(around);
+    if (indirect) {
+        Surroundings alone = around;
+        alone.radiance = roomRadiance_;
+        findObjectLight(alone);
     }
-    changeRoom(false);
+    changeRoom(true);
+    if (roomChanges_) change_.findRadiance(roomLight_, radiance_);
+    findObjectLight(around);
+    if (indirect) changeRoom(false);
+    change_.apply(roomLight_, light_);
 }
 
-/// The room's light with shadows and what the objects change, `bouncing` anew.
+/// The change of the room's light by shadows and objects, `bouncing` anew.
 void LightExchange::changeRoom(bool bouncing) {
     change_.clear();
     for (const TexelChange& t : shadows_) change_.add(t.texel, t.irradiance);
     for (const Body& body : bodies_) body.light->addChange(change_);
-    if (bouncing)
+    if (bouncing && !change_.texels().empty())
         bounce_.find(change_, scene_, roomRays_, texels_, coverage_,
                      {&instances_, lit_, kNoObject});
-    bounce_.addTo(change_, texels_, coverage_, kLeastAmbient * luminance(meanIrradiance_));
-    if (!emitted_.empty()) {
-        if (!sweep_) sweep_.emplace(litRoom());
-        for (const TexelChange& t : emitted_) change_.add(t.texel, t.irradiance);
-        sweep_->add(emitted_, litRoom(), kEmissionBounces, change_);
-    }
-    change_.apply(texels_, roomLight_, light_, radiance_);
+    bounce_.addTo(change_, kLeastAmbient * luminance(meanIrradiance_));
+    for (const TexelChange& t : emitted_) change_.add(t.texel, t.irradiance);
 }
 
-/// Those of precomputed transfer are many and quick, the others use all threads themselves.
+/// Those of precomputed transfer are many and quick, the others use all threads themselves. All
+/// light that comes to the first is found before any on them changes, and not again where nothing
+/// that they see has changed.
 void LightExchange::findObjectLight(const Surroundings& around) {
-    const auto isQuick = [](const Body& body) {
+    const auto isTransferred = [](const Body& body) {
         return body.object->settings.shading == Shading::prt;
     };
-    parallelFor(bodies_.size(), [&](std::size_t i) {
-        if (isQuick(bodies_[i])) bodies_[i].light->find(*bodies_[i].object, around);
-    });
+    const auto forTransferred = [&](auto work) {
+        parallelFor(bodies_.size(), [&](std::size_t i) {
+            const Body& body = bodies_[i];
+            if (isTransferred(body) && (body.stale || roomChanges_)) work(body);
+        });
+    };
+    forTransferred([&](const Body& body) { body.light->findIncident(*body.object, around); });
+    forTransferred([&](const Body& body) { body.light->find(*body.object, around); });
     for (const Body& body : bodies_)
-        if (!isQuick(body)) body.light->find(*body.object, around);
+        if (!isTransferred(body)) body.light->find(*body.object, around);
 }
 
 }  // namespace vlf

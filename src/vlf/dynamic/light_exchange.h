@@ -77,7 +77,8 @@ class LightExchange {
     RoomChange change_;
     std::vector<TexelChange> shadows_, emitted_;
     ChangeBounce bounce_;
-    std::optional<ChangeSweep> sweep_;  ///< once an object emits
+    std::optional<ChangeSweep> sweep_;                  ///< once an object emits
+    bool roomChanges_ = false, changedBefore_ = false;  ///< by objects, now or in the run before
     UpdateTimes times_;
 };
 

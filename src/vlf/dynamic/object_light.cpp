@@ -9,6 +9,7 @@ namespace vlf {
 namespace {
 
 constexpr std::size_t kReceiversPerBlock = 16;
+constexpr float kCacheCell = 0.05f;                // of the object's diameter
 constexpr float kTurnedAway = -0.1f;               // cosine: its neighbours may be seen
 constexpr float kLeastCells = 6, kMostCells = 64;  // over an object's diameter
 
@@ -33,7 +34,7 @@ void ObjectLight::prepare(const DynamicObject& object, ObjectPlans& plans, int l
         object.settings.shadow == ShadowKind::field ? plans.linesPlan(plan_, lines, cell) : nullptr;
     const ObjectReceivers& receivers = *plan_->receivers;
     irradiance_.assign(receivers.size(), Vec3(0));
-    own_ = direct_ = radiance_ = irradiance_;
+    direct_ = radiance_ = irradiance_;
     lit_.mesh = receivers.mesh;
     if (receivers.areTexels()) {
         atlas_ = {receivers.unwrap->atlasWidth, receivers.unwrap->atlasHeight, {}};
@@ -62,10 +63,12 @@ bool ObjectLight::showsTo(const DynamicObject& object, std::size_t receiver,
     });
 }
 
-/// All of it where light goes back from it to the room.
+/// All of it where light goes on from it to the room or to other parts of it.
 void ObjectLight::findWanted(const DynamicObject& object, std::span<const Vec3> viewers) {
     wanted_.clear();
-    if (viewers.empty() || lines_ || !object.settings.gather.onlyVisible) return;
+    if (viewers.empty() || lines_ || !object.settings.gather.onlyVisible ||
+        !plan_->gather.inside.all.empty())
+        return;
     wanted_.resize(plan_->receivers->size());
     for (std::size_t r = 0; r < wanted_.size(); ++r) wanted_[r] = showsTo(object, r, viewers);
 }
@@ -91,16 +94,33 @@ void ObjectLight::look(const DynamicObject& object, const Surroundings& around, 
     std::fill(irradiance_.begin(), irradiance_.end(), Vec3(0));
     std::fill(radiance_.begin(), radiance_.end(), Vec3(0));
     findWanted(object, around.viewers);
-    if (plan_->shading == Shading::gather) {
-        sights_.trace(plan_->gather, object.pose, around.room, objects, around.coverage, wanted_,
-                      object.settings.gather.emittersByDirections);
-        if (object.settings.gather.emittersByDirections)
-            std::fill(direct_.begin(), direct_.end(), Vec3(0));
-        else
-            findDirect(object, around);
-    }
+    if (plan_->shading == Shading::gather) lookForGather(object, around, objects);
     if (lines_)
         delta_.trace(lines_->data, *lit_.mesh, object.pose, around.room, objects, around.coverage);
+}
+
+void ObjectLight::lookForGather(const DynamicObject& object, const Surroundings& around,
+                                const SightObjects& objects) {
+    const GatherSettings& settings = object.settings.gather;
+    const ObjectReceivers& receivers = *plan_->receivers;
+    traced_ = wanted_;
+    if (settings.cache) {
+        const Sphere& bounds = object.model->bounds();
+        cache_.setCell(kCacheCell * 2 * bounds.radius * object.pose.scale);
+        traced_.resize(receivers.size(), 1);
+        for (std::size_t r = 0; r < receivers.size(); ++r)
+            if (cache_.find(object.pose.point(receivers.position[r]),
+                            object.pose.direction(receivers.normal[r])))
+                traced_[r] = 0;
+    }
+    sights_.pickDirections(plan_->gather, object.model->bounds().centre, settings.importanceSamples,
+                           object.pose, around.room, objects);
+    sights_.trace(plan_->gather, object.pose, around.room, objects, around.coverage, traced_,
+                  settings.emittersByDirections);
+    if (settings.emittersByDirections)
+        std::fill(direct_.begin(), direct_.end(), Vec3(0));
+    else
+        findDirect(object, around);
 }
 
 /// Of the room's emitters and of the other objects'.
@@ -109,16 +129,9 @@ void ObjectLight::findDirect(const DynamicObject& object, const Surroundings& ar
     const std::size_t blocks = (receivers.size() + kReceiversPerBlock - 1) / kReceiversPerBlock;
     const RoomTexels& room = around.room.texels;
     parallelFor(blocks, 1, [&](std::size_t block) {
-        std::vector<LightGatherer> gatherers;
-        gatherers.emplace_back(around.room.scene, around.room.rays, room.unwrap, room.sources, 0);
-        for (const auto& emitters : around.emitters) {
-            if (!emitters || emitters->number == number_) continue;
-            gatherers.emplace_back(emitters->posed, around.room.rays, room.unwrap,
-                                   emitters->sources, 0);
-            gatherers.back().emittersAreElsewhere();
-        }
-        for (LightGatherer& gatherer : gatherers)
-            gatherer.setExtraOccluder(occluderOf(around.instances));
+        LightGatherer gatherer(around.room.scene, around.room.rays, room.unwrap, room.sources, 0);
+        gatherer.setExtraOccluder(occluderOf(around.instances));
+        EmittedLight emitted(around.room.rays, around.instances);
         const std::size_t end = std::min(receivers.size(), (block + 1) * kReceiversPerBlock);
         for (std::size_t r = block * kReceiversPerBlock; r < end; ++r) {
             direct_[r] = Vec3(0);
@@ -128,8 +141,13 @@ void ObjectLight::findDirect(const DynamicObject& object, const Surroundings& ar
             receiver.centre = object.pose.point(receiver.centre);
             receiver.normal = object.pose.direction(receiver.normal);
             receiver.radius *= object.pose.scale;
-            for (LightGatherer& gatherer : gatherers)
-                direct_[r] += gatherer.irradiance(receiver, object.settings.directSamples, 0).value;
+            direct_[r] = gatherer.irradiance(receiver, object.settings.directSamples, 0).value;
+            for (const auto& emitters : around.emitters)
+                if (emitters && emitters->number != number_)
+                    direct_[r] += emitted.irradiance(emitters->points,
+                                                     object.pose.point(receivers.position[r]),
+                                                     object.pose.direction(receivers.normal[r]),
+                                                     object.pose.direction(receivers.geometric[r]));
         }
     });
 }
@@ -143,25 +161,35 @@ void ObjectLight::find(const DynamicObject& object, const Surroundings& around) 
             shadeByLights(around.points, *lit_.mesh, object.pose, around.room.rays, irradiance_);
             break;
         case Shading::gather:
-            own_ = irradiance_;
-            irradiance_ = direct_;
-            sights_.gather(plan_->gather, *plan_->receivers, around.radiance, around.lit, own_,
-                           irradiance_);
+            gather(object, around);
             break;
         case Shading::prt:
-            findByTransfer(object, around);
+            applyTransfer(*plan_->transfer, incident_, irradiance_);
             break;
     }
     publish();
 }
 
-void ObjectLight::findByTransfer(const DynamicObject& object, const Surroundings& around) {
+void ObjectLight::gather(const DynamicObject& object, const Surroundings& around) {
+    const ObjectReceivers& receivers = *plan_->receivers;
+    std::fill(irradiance_.begin(), irradiance_.end(), Vec3(0));
+    sights_.gather(plan_->gather, receivers, around.radiance, around.lit, direct_, irradiance_);
+    if (object.settings.gather.cache)
+        for (std::size_t r = 0; r < receivers.size(); ++r) {
+            const Vec3 position = object.pose.point(receivers.position[r]);
+            const Vec3 normal = object.pose.direction(receivers.normal[r]);
+            if (traced_[r])
+                cache_.store(position, normal, irradiance_[r]);
+            else if (const auto known = cache_.find(position, normal))
+                irradiance_[r] = *known;
+        }
+    for (std::size_t r = 0; r < receivers.size(); ++r) irradiance_[r] += direct_[r];
+}
+
+void ObjectLight::findIncident(const DynamicObject& object, const Surroundings& around) {
     if (!scratch_) scratch_ = std::make_unique<IncidentLightFinder::Scratch>(around.incident);
-    const PrtTransfer& transfer = *plan_->transfer;
-    around.incident.find(transfer.box, object.pose, around.radiance,
+    around.incident.find(plan_->transfer->box, object.pose, around.radiance,
                          {&around.instances, around.lit, number_}, *scratch_, incident_);
-    applyTransfer(transfer, incident_, irradiance_);
-    for (std::size_t i = 0; i < transfer.own.size(); ++i) irradiance_[i] += transfer.own[i];
 }
 
 void ObjectLight::publish() {

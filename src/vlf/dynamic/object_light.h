@@ -3,6 +3,7 @@
 
 #include "vlf/dynamic/delta_transport.h"
 #include "vlf/dynamic/incident_light.h"
+#include "vlf/dynamic/irradiance_cache.h"
 #include "vlf/dynamic/object_emitters.h"
 #include "vlf/dynamic/object_plan.h"
 #include "vlf/dynamic/point_lights.h"
@@ -41,10 +42,18 @@ class ObjectLight {
     std::unique_ptr<const ObjectEmitters> emitters(const DynamicObject& object,
                                                    std::uint32_t own) const;
 
+    /// What was gathered before holds no longer.
+    void forget() { cache_.clear(); }
+
     /// Looks about from the object's pose, as number `own` of the lit ones.
     void look(const DynamicObject& object, const Surroundings& around, std::uint32_t own);
 
-    /// The light on it, by what the surroundings now send.
+    /// Of shading `prt`: the light that comes to it. Reads the light on other objects, which must
+    /// not change meanwhile.
+    void findIncident(const DynamicObject& object, const Surroundings& around);
+
+    /// The light on it, by what the surroundings now send; of shading `prt`, what findIncident()
+    /// has found.
     void find(const DynamicObject& object, const Surroundings& around);
 
     /// Whether it takes from the room's indirect light and gives it back.
@@ -57,19 +66,23 @@ class ObjectLight {
     bool showsTo(const DynamicObject& object, std::size_t receiver,
                  std::span<const Vec3> viewers) const;
     void findWanted(const DynamicObject& object, std::span<const Vec3> viewers);
+    void lookForGather(const DynamicObject& object, const Surroundings& around,
+                       const SightObjects& objects);
     void findDirect(const DynamicObject& object, const Surroundings& around);
-    void findByTransfer(const DynamicObject& object, const Surroundings& around);
+    void gather(const DynamicObject& object, const Surroundings& around);
     void publish();
 
     std::shared_ptr<const ObjectPlan> plan_;
     std::shared_ptr<const LinesPlan> lines_;
     std::uint32_t number_ = kNoObject;  ///< among the lit ones
     std::vector<std::uint8_t> wanted_;  ///< by receiver; empty: all
+    std::vector<std::uint8_t> traced_;  ///< wanted and not in the cache
+    IrradianceCache cache_;             ///< of what is gathered
     GatherSights sights_;
     IncidentLight incident_;
     std::unique_ptr<IncidentLightFinder::Scratch> scratch_;
     DeltaLines delta_;
-    std::vector<Vec3> direct_, own_, irradiance_, radiance_;  ///< by receiver
+    std::vector<Vec3> direct_, irradiance_, radiance_;  ///< by receiver
     IrradianceAtlas atlas_;
     LitObject lit_;
 };

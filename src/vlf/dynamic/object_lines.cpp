@@ -1,9 +1,11 @@
 #include "vlf/dynamic/object_lines.h"
 
 #include "vlf/base/parallel.h"
+#include "vlf/dynamic/turned_set.h"
 #include "vlf/field/direction_set.h"
 #include "vlf/math/frame.h"
 #include "vlf/math/random.h"
+#include "vlf/math/sampling.h"
 
 #include <cmath>
 
@@ -52,17 +54,18 @@ LinePart linesAlong(const ObjectReceivers& receivers, const Sphere& bounds, cons
 ObjectLines makeObjectLines(const ObjectReceivers& receivers, const Sphere& bounds, int lines,
                             float cell) {
     const DirectionSet set(lines);
+    const Mat3 turn = sampleUniformRotation(kTurn);
     ObjectLines result;
     result.cellArea = cell * cell;
     std::vector<LinePart> parts(static_cast<std::size_t>(set.lineCount()));
     parallelFor(parts.size(), 16, [&](std::size_t k) {
-        parts[k] =
-            linesAlong(receivers, bounds, set.direction(static_cast<std::uint32_t>(k)), cell, k);
+        parts[k] = linesAlong(receivers, bounds,
+                              turn * set.direction(static_cast<std::uint32_t>(k)), cell, k);
     });
     result.firstCell.push_back(0);
     for (std::size_t k = 0; k < parts.size(); ++k) {
         const LinePart& part = parts[k];
-        result.directions.push_back(set.direction(static_cast<std::uint32_t>(k)));
+        result.directions.push_back(turn * set.direction(static_cast<std::uint32_t>(k)));
         result.weights.push_back(set.weight(static_cast<std::uint32_t>(k)));
         result.entries.insert(result.entries.end(), part.entries.begin(), part.entries.end());
         result.exits.insert(result.exits.end(), part.exits.begin(), part.exits.end());

@@ -7,6 +7,7 @@ namespace vlf {
 namespace {
 
 constexpr std::size_t kLanes = PrtTransfer::kLanes;
+constexpr int kInterpolatedOrder = 3;
 using Lanes = std::array<float, kLanes>;
 
 void store(const PrtTransfer& transfer, std::size_t block, const std::array<Lanes, 3>& sums,
@@ -35,6 +36,24 @@ std::array<Lanes, 8> cornerWeights(const float* places) {
     return weights;
 }
 
+/// Light of functions first to last - 1, whose rows begin at `row`, the same for all vertices.
+void addRows(const float* row, const Sh<Vec3>& radiance, int first, int last,
+             std::array<Lanes, 3>& sums) {
+    std::array<Lanes, 3> added = sums;
+    for (int f = first; f < last; ++f)
+        for (int c = 0; c < 3; ++c, row += kLanes)
+            for (std::size_t lane = 0; lane < kLanes; ++lane)
+                added[c][lane] += row[lane] * radiance[f][c];
+    sums = added;
+}
+
+Sh<Vec3> meanOf(const std::array<Sh<Vec3>, 8>& corners) {
+    Sh<Vec3> mean{};
+    for (const Sh<Vec3>& corner : corners)
+        for (int f = 0; f < kMaxShCount; ++f) mean[f] += 0.125f * corner[f];
+    return mean;
+}
+
 }  // namespace
 
 void applyTransfer(const PrtTransfer& transfer, const Sh<Vec3>& radiance,
@@ -42,12 +61,9 @@ void applyTransfer(const PrtTransfer& transfer, const Sh<Vec3>& radiance,
     const std::size_t blockSize = transfer.blockSize();
     const int functions = shCount(transfer.order);
     for (std::size_t block = 0; block * kLanes < transfer.vertexCount; ++block) {
-        const float* row = transfer.blocks.data() + block * blockSize + 3 * kLanes;
         std::array<Lanes, 3> sums{};
-        for (int f = 0; f < functions; ++f)
-            for (int c = 0; c < 3; ++c, row += kLanes)
-                for (std::size_t lane = 0; lane < kLanes; ++lane)
-                    sums[c][lane] += row[lane] * radiance[f][c];
+        addRows(transfer.blocks.data() + block * blockSize + 3 * kLanes, radiance, 0, functions,
+                sums);
         store(transfer, block, sums, irradiance);
     }
 }
@@ -56,12 +72,14 @@ void applyTransfer(const PrtTransfer& transfer, const std::array<Sh<Vec3>, 8>& c
                    std::span<Vec3> irradiance) {
     const std::size_t blockSize = transfer.blockSize();
     const int functions = shCount(transfer.order);
+    const int interpolated = std::min(functions, shCount(kInterpolatedOrder));
+    const Sh<Vec3> mean = meanOf(corners);
     for (std::size_t block = 0; block * kLanes < transfer.vertexCount; ++block) {
         const float* row = transfer.blocks.data() + block * blockSize;
         const std::array<Lanes, 8> weights = cornerWeights(row);
         row += 3 * kLanes;
         std::array<Lanes, 3> sums{};
-        for (int f = 0; f < functions; ++f)
+        for (int f = 0; f < interpolated; ++f)
             for (int c = 0; c < 3; ++c, row += kLanes) {
                 Lanes light{};
                 for (std::size_t corner = 0; corner < corners.size(); ++corner)
@@ -70,6 +88,7 @@ void applyTransfer(const PrtTransfer& transfer, const std::array<Sh<Vec3>, 8>& c
                 for (std::size_t lane = 0; lane < kLanes; ++lane)
                     sums[c][lane] += row[lane] * light[lane];
             }
+        addRows(row, mean, interpolated, functions, sums);
         store(transfer, block, sums, irradiance);
     }
 }

@@ -51,13 +51,16 @@ struct PrtTransfer {
 /// to four times.
 PrtTransfer computeTransfer(const ObjectMesh& mesh, const PrtSettings& settings);
 
-/// Irradiance (W·m⁻², not below 0) at every sided vertex; `irradiance` has transfer.vertexCount
-/// entries. Incident radiance is in the object's space: the same all over the object,
+/// Irradiance (W·m⁻², not below 0) at every sided vertex, own light included; `irradiance` has
+/// transfer.vertexCount entries. Incident radiance is in the object's space: the same all over the
+/// object,
 void applyTransfer(const PrtTransfer& transfer, const Sh<Vec3>& radiance,
                    std::span<Vec3> irradiance);
 
 /// or given at the corners of its box (corner i is at the far side along x, y, z where bit 0, 1, 2
-/// of i is set) and interpolated linearly in each of them.
+/// of i is set) and interpolated linearly along each axis. Bands from the fourth on take the mean
+/// of the corners: interpolating them, too, costs as much again and changes the error by a
+/// hundredth of itself.
 void applyTransfer(const PrtTransfer& transfer, const std::array<Sh<Vec3>, 8>& corners,
                    std::span<Vec3> irradiance);
 

@@ -6,10 +6,12 @@
 
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace vlf {
 
+/// Of single texels, of all texels of a group, and of all there are. Irradiance in W·m⁻².
 class RoomChange {
   public:
     explicit RoomChange(const RoomTexels& room);
@@ -17,32 +19,49 @@ class RoomChange {
     /// Nothing has changed.
     void clear();
 
+    /// `texel` is covered.
     void add(std::uint32_t texel, const Vec3& irradiance) {
         change_[texel] += irradiance;
         if (touched_[texel]) return;
         touched_[texel] = 1;
         texels_.push_back(texel);
     }
+    void addToGroup(std::uint32_t group, const Vec3& irradiance) {
+        groups_[group] += irradiance;
+        everywhere_ = true;
+    }
+    void addToAll(const Vec3& irradiance) {
+        all_ += irradiance;
+        everywhere_ = true;
+    }
 
-    /// The texels that were added to, and by atlas texel how much.
+    /// The texels that were added to one by one, and how much, by atlas texel.
     std::span<const std::uint32_t> texels() const { return texels_; }
     const Vec3& of(std::uint32_t texel) const { return change_[texel]; }
 
-    /// Writes irradiance with the change into `light`, texels that no surface covers along with the
-    /// covered ones they continue, and the radiance it makes the texels send. What was written
-    /// before and is not changed any more becomes the room's own again. Light does not become
-    /// negative.
-    void apply(const RoomTexels& room, const IrradianceAtlas& own, IrradianceAtlas& light,
-               std::vector<Vec3>& radiance);
+    /// The radiance that the texels reflect with the change, by atlas texel.
+    void findRadiance(const IrradianceAtlas& own, std::vector<Vec3>& radiance) const;
+
+    /// `own` with the change; texels that no surface covers change with the covered ones that they
+    /// continue. Light does not become negative. `light` must be what the call before wrote, or
+    /// `own`.
+    void apply(const IrradianceAtlas& own, IrradianceAtlas& light);
 
   private:
-    void set(const RoomTexels& room, std::uint32_t texel, const Vec3& change,
-             const IrradianceAtlas& own, IrradianceAtlas& light, std::vector<Vec3>& radiance) const;
+    bool empty() const { return texels_.empty() && !everywhere_; }
+    Vec3 changeOf(std::uint32_t texel) const {
+        return change_[texel] + groups_[room_.groupOf[texel]] + all_;
+    }
 
+    const RoomTexels& room_;
     std::vector<Vec3> change_;
     std::vector<std::uint8_t> touched_;
-    std::vector<std::uint32_t> texels_, written_;
-    std::vector<std::uint32_t> firstFollower_, followers_;  ///< by covered texel
+    std::vector<std::uint32_t> texels_;
+    std::vector<Vec3> groups_;
+    Vec3 all_{0};
+    bool everywhere_ = false;
+    bool written_ = false;  ///< the last call of apply changed something
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> followers_;  ///< and what they follow
 };
 
 }  // namespace vlf

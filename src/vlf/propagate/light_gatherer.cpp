@@ -230,7 +230,6 @@ DirectEstimate LightGatherer::gatherByFormFactor(const LightReceiver& r, const L
 /// Within this distance of the receiver a light is sampled by directions instead of points,
 /// among which 1/r² would leave few that matter; 0 if the light is farther.
 float LightGatherer::nearReach(const LightReceiver& r, const LightImage& image) const {
-    if (!canMeetEmitters_) return 0;
     const Light& light = sources_.lights[image.light];
     const float reach = kNearField * std::sqrt(light.area);
     const Vec3 fromLight = r.centre - light.centre;

@@ -44,9 +44,6 @@ class LightGatherer {
                   const LightSources& sources, std::uint64_t seed)
         : scene_(scene), rays_(rays), unwrap_(unwrap), sources_(sources), seed_(seed) {}
 
-    /// The emitters are not among what `rays` can meet.
-    void emittersAreElsewhere() { canMeetEmitters_ = false; }
-
     /// Things in the room that its rays do not know of.
     void setExtraOccluder(ExtraOccluder occluder) { extra_ = std::move(occluder); }
 
@@ -97,7 +94,6 @@ class LightGatherer {
     const LightSources& sources_;
     std::uint64_t seed_;
     ExtraOccluder extra_;
-    bool canMeetEmitters_ = true;
     Counts counts_ = Counts::seen;
     std::vector<float> effects_;
     std::vector<Ray> shadowRays_;

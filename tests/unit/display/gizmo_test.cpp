@@ -114,6 +114,16 @@ TEST(Gizmo, ARingTurnsTheObjectAboutItsAxis) {
     }
 }
 
+TEST(Gizmo, WhatADragWouldNotMoveIsNotPicked) {
+    const Screen screen({"", {0, 0, 5}, {0, 0, 0}, {0, 1, 0}, 60}, {640, 480});
+    const Gizmo gizmo(screen, {});
+    // The ring about X is a line behind the arm along Y.
+    const Vec2 end = *screen.point(gizmo.armEnd(1));
+    EXPECT_EQ(gizmo.pick(end), (GizmoHandle{GizmoPart::arm, 1}));
+    EXPECT_EQ(gizmo.pick(*screen.point(-gizmo.armEnd(1))), GizmoHandle());
+    EXPECT_EQ(gizmo.pick({320, 240}), GizmoHandle()) << "the arm along Z points at the eye";
+}
+
 TEST(Gizmo, WhereADragSaysNothingTheObjectStays) {
     const Screen screen({"", {0, 0, 5}, {0, 0, 0}, {0, 1, 0}, 60}, {640, 480});
     const Gizmo gizmo(screen, {});

@@ -5,6 +5,7 @@
 #include "vlf/scene/generate/primitives.h"
 
 #include "support/analytic_scenes.h"
+#include "support/baked_example.h"
 #include "unit/dynamic/lit_room.h"
 
 #include <gtest/gtest.h>
@@ -75,7 +76,7 @@ TEST(IncidentLight, EmittersMetByDirectionsAloneAreTheSameOnAverage) {
     const LitRoom room(roomWithLamp(), Vec3(0));
     const IncidentLightFinder sampled(room.scene, room.rays, room.texels);
     const IncidentLightFinder met(room.scene, room.rays, room.texels,
-                                  {.lines = 8193, .emitterPoints = 0});
+                                  {.lines = 8193, .emitters = IncidentEmitters::met});
     IncidentLightFinder::Scratch scratch(sampled);
     const Vec3 point(0.2f, -0.5f, 0.1f);
     const Sh<Vec3> a = sampled.at(point, room.radiance, scratch);
@@ -87,7 +88,7 @@ TEST(IncidentLight, EmittersSeenInMirrorsAreTheSameOnAverage) {
     const LitRoom room(test::mirrorBox(), Vec3(0));
     const IncidentLightFinder sampled(room.scene, room.rays, room.texels, {.emitterPoints = 256});
     const IncidentLightFinder met(room.scene, room.rays, room.texels,
-                                  {.lines = 8193, .emitterPoints = 0});
+                                  {.lines = 8193, .emitters = IncidentEmitters::met});
     IncidentLightFinder::Scratch scratch(sampled);
     const Vec3 point(-0.3f, 0.2f, 0.1f);
     const Sh<Vec3> a = sampled.at(point, room.radiance, scratch);
@@ -95,6 +96,14 @@ TEST(IncidentLight, EmittersSeenInMirrorsAreTheSameOnAverage) {
     for (int f = 0; f < kMaxShCount; ++f) EXPECT_NEAR(a[f].x, b[f].x, 0.01f) << f;
     EXPECT_LT(shValue(a, Vec3(-1, 0, 0)).x, shValue(a, Vec3(1, 0, 0)).x);
     EXPECT_GT(shValue(a, Vec3(-1, 0, 0)).x, 0.1f);
+}
+
+TEST(IncidentLight, EmittersCanBeLeftOut) {
+    const LitRoom room(roomWithLamp(), Vec3(0.25f));
+    const IncidentLightFinder finder(room.scene, room.rays, room.texels,
+                                     {.emitters = IncidentEmitters::none});
+    IncidentLightFinder::Scratch scratch(finder);
+    expectConstant(finder.at({0.2f, -0.5f, 0.1f}, room.radiance, scratch), Vec3(0.25f));
 }
 
 TEST(IncidentLight, IsOfTheObjectsSpace) {
@@ -158,6 +167,52 @@ TEST(IncidentLight, OtherObjectsHideTheRoomAndSendLightOfTheirOwn) {
     const float solidAngle = 4 * std::asin(0.2f);
     EXPECT_NEAR(below.corners[0][0].x, 0.28209479f * 1.6f * solidAngle, 0.04f);
     EXPECT_NEAR(shValue(below.corners[0], Vec3(0, -1, 0)).x, 0, 0.2f);
+}
+
+TEST(IncidentLight, GivesTheIrradianceOfABakedRoomBetterWithEveryOtherBand) {
+    const Scene scene = test::smallCornell();
+    const RayScene rays(scene);
+    const LightField field = test::bakeDraft(scene, 2000);
+    const RoomTexels room = makeRoomTexels(scene, rays, field);
+    std::vector<Vec3> radiance(room.unwrap.atlasSize(), Vec3(0));
+    for (const std::uint32_t t : room.unwrap.texels)
+        radiance[t] = room.reflectance[t] * field.atlas.irradiance[t] / kPi;
+    const IncidentLightFinder finder(scene, rays, room);
+    IncidentLightFinder::Scratch scratch(finder);
+    std::array<double, kMaxShOrder> squares{};
+    double sum = 0;
+    for (const Vec3& point : {Vec3(0.3f, 0.2f, 0.3f), Vec3(0.2f, 0.6f, 0.5f),
+                              Vec3(0.5f, 0.5f, 0.5f), Vec3(0.8f, 0.5f, 0.2f)}) {
+        std::vector<Ray> around;
+        for (std::uint32_t i = 0; i < 16384; ++i)
+            around.push_back({point, sampleUniformSphere(r2Point(i, Vec2(0.5f)))});
+        std::vector<Vec3> seen(around.size(), Vec3(0));
+        scratch.tracer.trace(around, scratch.sights);
+        for (std::size_t k = 0; k < around.size(); ++k)
+            if (scratch.sights.texel[k] != kNoTexel) seen[k] = radiance[scratch.sights.texel[k]];
+        for (const Sight& s : scratch.sights.others)
+            seen[s.ray] += s.throughput * (diffuseRadiance(s, radiance, {}) + s.emission);
+        Sh<Vec3> light = finder.at(point, radiance, scratch);
+        for (int order = kMaxShOrder; order > 0; --order) {
+            RandomStream random(3, 0);
+            for (int i = 0; i < 20; ++i) {
+                const Vec3 n = sampleUniformSphere(random.next2());
+                Vec3 truth(0);
+                for (std::size_t k = 0; k < around.size(); ++k)
+                    truth += std::max(0.0f, glm::dot(n, around[k].direction)) * seen[k];
+                truth *= 4 * kPi / static_cast<float>(around.size());
+                const Vec3 d = shIrradiance(light, n) - truth;
+                squares[order - 1] += glm::dot(d, d);
+                if (order == kMaxShOrder) sum += glm::dot(truth, truth);
+            }
+            for (int f = shCount(order - 1); f < shCount(order); ++f) light[f] = Vec3(0);
+        }
+    }
+    const auto error = [&](int order) { return std::sqrt(squares[order - 1] / sum); };
+    EXPECT_LT(error(2), 0.6 * error(1));
+    EXPECT_LT(error(3), 0.3 * error(2));
+    EXPECT_LT(error(5), error(3));
+    EXPECT_LT(error(5), 0.03);
 }
 
 }  // namespace

@@ -35,6 +35,8 @@ struct LitRoom {
                        std::vector<Vec3>(unwrapped.atlasSize(), Vec3(0))};
         const Sphere sphere = boundingSphere(scene);
         field.frame = {sphere.centre, sphere.radius};
+        field.record.directions = 129;
+        field.record.cells = 64;
         return field;
     }
 };
