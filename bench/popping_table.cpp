@@ -2,8 +2,8 @@
 //
 // Whether light pops while an object moves: a cube goes once around the room, and irradiance is
 // compared from frame to frame at every texel of the room from where it hides no part of an emitter
-// and that is farther from it than it is large; not where it is all but dark (a twentieth of the
-// mean).
+// and that is farther from it than it is large; relative to the texel's own irradiance, or to a
+// fifth of the mean where that is more.
 
 #include "vlf/dynamic/dynamic_room.h"
 #include "vlf/dynamic/soft_shadow.h"
@@ -70,8 +70,8 @@ void run(const Options& o) {
         float frameWorst = 0;
         for (std::size_t i = 0; i < now.size() && !before.empty(); ++i) {
             const float own = luminance(baked.field.atlas.irradiance[texels.unwrap.texels[i]]);
-            if (own < 0.05f * mean || shadowed[i] || shadowedBefore[i]) continue;
-            const float step = std::abs(now[i] - before[i]) / own;
+            if (shadowed[i] || shadowedBefore[i]) continue;
+            const float step = std::abs(now[i] - before[i]) / std::max(own, 0.2f * mean);
             worstOf[i] = std::max(worstOf[i], step);
             frameWorst = std::max(frameWorst, step);
         }
