@@ -38,7 +38,10 @@ class ChangedRoom : public testing::Test {
         return texels.reflectance[t] * atlas.irradiance[t] / kPi;
     }
 
-    void apply() { change.apply(texels, own, light, radiance); }
+    void apply() {
+        change.findRadiance(own, radiance);
+        change.apply(own, light);
+    }
 };
 
 TEST_F(ChangedRoom, SendsWhatTheChangedTexelsReflect) {
