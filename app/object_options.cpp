@@ -196,15 +196,17 @@ void addObjectOptions(CLI::App& command, ObjectOptions& options) {
 std::string objectHelp() {
     return fmt::format(
         "Objects:\n"
-        "  --object SHAPE[:SIZE][:MATERIAL][@X,Y,Z]   SHAPE is one of {}\n"
-        "  --object FILE[@X,Y,Z]                      FILE is .obj, .gltf or .glb, in metres\n"
-        "SIZE: from side to side, metres [a tenth of the room]; X,Y,Z: where its middle, of a "
-        "file\n"
-        "its origin, is [the middle of the room]. MATERIAL: {},\nor diffuse reflectances R,G,B "
-        "from 0 to 1 [white]. --object may be given many times.\n"
-        "  --object cube                              a white cube in the middle of the room\n"
-        "  --object cube:0.1:red@1,0.05,2             10 cm of red, on the floor\n"
-        "  --object sphere:mirror --object chair.glb@1,0,2\n",
+        "  --object SHAPE[:SIZE][:MATERIAL][@X,Y,Z]\n"
+        "  --object FILE[@X,Y,Z]\n"
+        "    SHAPE     {}\n"
+        "    SIZE      from side to side, in metres [a tenth of the room]\n"
+        "    MATERIAL  {}; or\n"
+        "              diffuse reflectances R,G,B from 0 to 1 [white]\n"
+        "    FILE      .obj, .gltf or .glb, in metres\n"
+        "    X,Y,Z     of the middle of a shape, or the origin of a file [middle of the room]\n"
+        "  --object cube                                       white, in the middle\n"
+        "  --object cube:0.1:red@1,0.05,2                      10 cm, on the floor\n"
+        "  --object sphere:mirror --object chair.glb@1,0,2     two\n",
         fmt::join(primitiveNames(), ", "), paintNames());
 }
 

@@ -129,7 +129,7 @@ void measure(const Options& options, const BakedRoom& room, const RayScene& rays
         Progress progress;
         const Image image = renderStill(with, still, progress);
         writePng(options.pictures + camera.name + "-" + name + ".png",
-                   toneMap(image, autoExposure(image), ToneCurve::filmic));
+                 toneMap(image, autoExposure(image), ToneCurve::filmic));
     }
 }
 

@@ -107,6 +107,7 @@ void Comparison::update(const std::shared_ptr<const BakedRoom>& room, const Obje
     try {
         const std::unique_ptr<Rebake> baked = std::move(baking_);
         truth_ = std::make_unique<ShownRoom>(baked->result(), options_);
+        say_("baked again: V shows it otherwise");
     } catch (const Error& e) {
         end();
         say_(e.what());

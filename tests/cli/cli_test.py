@@ -238,6 +238,26 @@ class Film(Case):
             self.assertEqual((self.folder / f"part-{i}.png").read_bytes(),
                              (self.folder / f"all-{i}.png").read_bytes())
 
+    def test_a_film_has_the_objects_of_its_path(self):
+        still = {"eye": [2.78, 2.73, -8], "yaw": 180, "pitch": 0, "verticalFov": 39}
+        (self.folder / "walk.json").write_text(json.dumps({
+            "format": "vlf camera path", "version": 2,
+            "camera": [{"seconds": s, **still} for s in (0, 1)],
+            "objects": [{"shape": "cube", "position": [4, 0.5, 1], "shading": "flat",
+                         "shadow": "none", "motion": {"keyframes": [
+                             {"seconds": 0}, {"seconds": 1, "position": [2, 2, 1]}]}}]}))
+        for backend in ("cpu", "gl"):
+            self.film("-o", "all-%d.png", "--fps", "3", "--exposure", "0", "--backend", backend,
+                      "--log", "log.csv")
+            self.film("-o", "part-%d.png", "--fps", "3", "--exposure", "0", "--backend", backend,
+                      "--from", "2f")
+            frames = [(self.folder / f"all-{i}.png").read_bytes() for i in range(3)]
+            self.assertEqual(len(set(frames)), 3, "the camera rests")
+            self.assertEqual((self.folder / "part-2.png").read_bytes(), frames[2])
+            self.assertIn(",objects_ms,", (self.folder / "log.csv").read_text())
+        self.film("-o", "all-%d.png", "--object", "cube", code=BAD_INPUT,
+                  says=["walk.json", "leave out --object"])
+
     def test_a_tour_visits_the_cameras(self):
         self.run_vlf("render", "room.vlf", "--tour", *self.SIZE, "--exposure", "0", "-o", "t%d.png",
                      "--to", "1f")

@@ -110,6 +110,28 @@ class Objects(WindowCase):
         self.press("p", "go on")
         self.close()
 
+    def test_dynamic_light_is_compared_with_the_room_baked_again(self):
+        self.open("--fresh", "--object", CUBE, *CHEAP)
+        self.press("v", "comparing")
+        self.hear("baked again")
+        side = self.picture()
+        self.press("v", "wipe: dynamic | baked again")
+        self.screen.do("mousemove", 0, 100, "sleep", "0.2")
+        truth = self.picture()
+        self.screen.do("mousemove", 799, 100, "sleep", "0.2")
+        dynamic = self.picture()
+        self.assertEqual(len({side, truth, dynamic}), 3)
+        self.press("v", "wipe: dynamic | error")
+        self.press("v", "comparison ended")
+        self.press("v", "comparing")
+        self.press("o", "keys move cube")
+        self.screen.do("keydown", "w")
+        while "the room has changed" not in self.said.get(timeout=30):
+            pass
+        self.screen.do("keyup", "w")
+        self.press("v", "comparing")
+        self.close()
+
     def test_what_cannot_be_put_into_the_room_opens_no_window(self):
         for option, code, says in [
                 (["--object", "brick"], USAGE, ["brick", "scene file", "cube, sphere, knot"]),

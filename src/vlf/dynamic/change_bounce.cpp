@@ -15,10 +15,11 @@ namespace {
 constexpr std::size_t kRaysPerBlock = 256;
 /// From this far on, in radii of a group, what arrives at one of its texels counts for them all:
 /// few rays would make single far texels flicker.
-constexpr float kFar = 3;
+constexpr float kFar = 5;
+constexpr float kSpread = 0.12f;
 
 float size(const Vec3& flux) {
-    return luminance(glm::abs(flux));
+    return maxComponent(glm::abs(flux));  // a ray of any colour carries no more than another
 }
 
 Vec3 fluxOf(const RoomChange& change, std::uint32_t texel, const RoomTexels& room,
@@ -89,6 +90,27 @@ void ChangeBounce::shoot(const Scene& scene, const RayScene& roomRays, const Roo
     });
 }
 
+/// Over a square of texels around the one it has come to that is as wide as rays lie apart there.
+void ChangeBounce::spread(const Arrival& arrival, const RoomTexels& room,
+                          const Coverage& coverage) {
+    const Unwrap& unwrap = room.unwrap;
+    const Chart& chart = unwrap.charts[unwrap.texelChart[room.entryOf[arrival.texel]]];
+    const int reach = static_cast<int>(kSpread * arrival.distance / chart.texelSize());
+    const auto x = static_cast<int>(arrival.texel % unwrap.atlasWidth - chart.x);
+    const auto y = static_cast<int>(arrival.texel / unwrap.atlasWidth - chart.y);
+    square_.clear();
+    float area = 0;
+    for (int v = std::max(0, y - reach); v <= std::min<int>(chart.height - 1, y + reach); ++v)
+        for (int u = std::max(0, x - reach); u <= std::min<int>(chart.width - 1, x + reach); ++u) {
+            const std::uint32_t t = (chart.y + v) * unwrap.atlasWidth + chart.x + u;
+            const float seen = room.area[t] * coverage.uncovered(t);
+            if (seen <= 0) continue;
+            area += seen;
+            square_.push_back(t);
+        }
+    for (const std::uint32_t t : square_) near_.push_back({t, arrival.flux / area});
+}
+
 void ChangeBounce::collect(const RoomTexels& room, const Coverage& coverage) {
     Vec3 again(0);
     for (const std::vector<Arrival>& block : arrivals_)
@@ -101,8 +123,7 @@ void ChangeBounce::collect(const RoomTexels& room, const Coverage& coverage) {
                 groups_[g] += a.flux / group.area;
                 continue;
             }
-            const float area = room.area[a.texel] * coverage.uncovered(a.texel);
-            if (area > 0) near_.push_back({a.texel, a.flux / area});
+            spread(a, room, coverage);
         }
     // A geometric series of bounces between surfaces of the mean reflectance.
     const Vec3 gain = 1.0f / glm::max(Vec3(0.05f), Vec3(1) - room.meanReflectance);

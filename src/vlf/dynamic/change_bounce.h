@@ -22,7 +22,7 @@ struct TexelChange {
 
 class ChangeBounce {
   public:
-    static constexpr int kRays = 2048;
+    static constexpr int kRays = 4096;
 
     /// Finds what the changes make the texels send to one another: the first bounce by `rays` rays,
     /// each from a texel picked in proportion to its flux, the rest evenly all over the room.
@@ -47,6 +47,7 @@ class ChangeBounce {
              const Coverage& coverage, int rays);
     void shoot(const Scene& scene, const RayScene& roomRays, const RoomTexels& room,
                const SightObjects& objects);
+    void spread(const Arrival& arrival, const RoomTexels& room, const Coverage& coverage);
     void collect(const RoomTexels& room, const Coverage& coverage);
 
     std::vector<Vec3> flux_;  ///< of the changed texels
@@ -54,6 +55,7 @@ class ChangeBounce {
     std::vector<Vec3> carried_;  ///< flux of each ray, W
     std::vector<std::vector<Arrival>> arrivals_;
     std::vector<TexelChange> near_;
+    std::vector<std::uint32_t> square_;
     std::vector<Vec3> groups_;  ///< change of irradiance of all of a group's texels, W·m⁻²
     std::vector<std::uint32_t> changedGroups_;
     Vec3 ambient_{0};  ///< of all texels

@@ -47,6 +47,7 @@ struct TexelPair {
 
 void addTexels(const DynamicRoom& room, const LightField& rebaked, std::uint32_t triangle,
                bool front, float epsilon, std::vector<TexelPair>& pairs) {
+    if (room.scene().material(triangle).isEmitter()) return;
     const TriangleCharts& charts = room.field().triangleCharts[triangle];
     const TriangleCharts& others = rebaked.triangleCharts[triangle];
     const std::uint32_t index = front ? charts.front : charts.back;

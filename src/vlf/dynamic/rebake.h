@@ -22,7 +22,8 @@ struct RebakedRoom {
 RebakedRoom rebake(const DynamicRoom& room, const BakeParams& params, Progress& progress);
 
 /// Irradiance of the room's texels with objects in it against that of the same places after
-/// baking again. Texels within objects are left out. All relative, 0.01 = 1 %.
+/// baking again. Texels within objects and of lamps are left out: behind lamps that all but touch a
+/// ceiling, light is noise. All relative, 0.01 = 1 %.
 struct RoomLightError {
     std::size_t texels = 0;
     double relativeRmse = 0;  ///< √(Σ(E−E*)² / ΣE*²), E dynamic, E* baked again

@@ -3,9 +3,9 @@
 #include "dynamic_example.h"
 #include "support/analytic_scenes.h"
 #include "vlf/render/cpu/camera_rays.h"
+#include "vlf/render/cpu/projection.h"
 #include "vlf/render/gl/progressive.h"
 #include "vlf/render/gl/read_framebuffer.h"
-#include "vlf/render/cpu/projection.h"
 
 #include <algorithm>
 #include <utility>
@@ -137,9 +137,10 @@ TEST_F(OpenGl, MirrorsShowObjectsAtTheRightPixels) {
     dynamic.update();
     Renderer renderer(room.scene, room.field);
     renderer.updateObjects(dynamic);
-    for (const auto& [mode, lookup] : {std::pair{DisplayMode::raytraced, LookupKind::depthCorrected},
-                                       {DisplayMode::field, LookupKind::depthCorrected},
-                                       {DisplayMode::field, LookupKind::plain}}) {
+    for (const auto& [mode, lookup] :
+         {std::pair{DisplayMode::raytraced, LookupKind::depthCorrected},
+          {DisplayMode::field, LookupKind::depthCorrected},
+          {DisplayMode::field, LookupKind::plain}}) {
         StillParams params = stillOf(room.camera("mirror"), lookup);
         params.mode = mode;
         params.antialias = 1;
@@ -174,8 +175,9 @@ TEST_F(OpenGl, HidesObjectsBehindWhatIsNearerInMirrorsToo) {
             StillParams params = stillOf(room.camera(camera));
             params.mode = mode;
             const Image image = drawn(renderer, params);
-            const auto bright = std::count_if(image.pixels.begin(), image.pixels.end(),
-                                              [](const Vec3& p) { return p.x > 3 && p.y < 0.1f * p.x; });
+            const auto bright =
+                std::count_if(image.pixels.begin(), image.pixels.end(),
+                              [](const Vec3& p) { return p.x > 3 && p.y < 0.1f * p.x; });
             EXPECT_EQ(bright, 0) << camera;
         }
 }
@@ -213,8 +215,7 @@ TEST_F(OpenGl, ObjectsOfAMeshShareItsBuffers) {
     dynamic.update();
     renderer.updateObjects(dynamic);
     const int one = gl::liveObjects();
-    for (int i = 1; i < 50; ++i)
-        dynamic.add(objectOf(model, {0.3f + 0.02f * i, 0.3f, 0.3f}, 0.2f));
+    for (int i = 1; i < 50; ++i) dynamic.add(objectOf(model, {0.3f + 0.02f * i, 0.3f, 0.3f}, 0.2f));
     dynamic.update();
     renderer.updateObjects(dynamic);
     EXPECT_EQ(gl::liveObjects(), one);

@@ -48,6 +48,7 @@ TEST_F(ShaderFolder, EveryVariantOfTheBuiltInShadersCompiles) {
           Defines{{"MIRROR", field}}, Defines{{"MIRROR", field}, {"PLAIN", "1"}},
           Defines{{"DIFFUSE_MAP", "1"}, {"EMISSION", "1"}, {"MIRROR", field}},
           Defines{{"MIRROR", field}, {"OBJECTS", "1"}, {"PROBES", "1"}, {"SHADOWS", "1"}},
+          Defines{{"MIRROR", field}, {"CHANGED", "1"}},
           Defines{{"MIRROR", field}, {"PLAIN", "1"}, {"OBJECTS", "1"}, {"PROBED", "128"}}})
         EXPECT_NE(library.program("surface", defines), 0u);
     for (const char* mirror : {"\"object_reflection.glsl\"", "\"object_probe.glsl\""})

@@ -35,7 +35,7 @@ std::array<Vec3, 8> placeOf(const ChangedChart& changed, const Chart& chart) {
 }  // namespace
 
 ChangedLight::ChangedLight(const Scene& scene, const LightField& field, bool looksUp)
-    : field_(field), charts_(scene, field), looksUp_(looksUp) {
+    : field_(field), charts_(scene, field), grid_(boundsOf(scene)), looksUp_(looksUp) {
     if (!looksUp) return;
     factors_ = makeTexture(GL_TEXTURE_2D);
     glTextureStorage2D(factors_.id(), 1, GL_RGB9_E5, static_cast<GLsizei>(field.atlas.width),
@@ -55,6 +55,7 @@ void ChangedLight::update(const IrradianceAtlas& with, const IrradianceAtlas& wi
         places_.push_back(placeOf(changed, field_.charts[changed.chart]));
         load(changed, with, without);
     }
+    grid_.fill(receivers_, places_, tolerance());
 }
 
 /// The texels that bilinear interpolation within the changed part reads.
@@ -75,8 +76,8 @@ void ChangedLight::load(const ChangedChart& changed, const IrradianceAtlas& with
     for (std::uint32_t y = y0; y < y1; ++y)
         for (std::uint32_t x = x0; x < x1; ++x) {
             const Vec3 &now = with.at(x, y), &before = without.at(x, y);
-            packed_.push_back(packRgb9e5({factorOf(now.r, before.r), factorOf(now.g, before.g),
-                                          factorOf(now.b, before.b)}));
+            packed_.push_back(packRgb9e5(
+                {factorOf(now.r, before.r), factorOf(now.g, before.g), factorOf(now.b, before.b)}));
         }
     glTextureSubImage2D(factors_.id(), 0, static_cast<GLint>(x0), static_cast<GLint>(y0),
                         static_cast<GLsizei>(x1 - x0), static_cast<GLsizei>(y1 - y0), GL_RGB,

@@ -3,6 +3,7 @@
 
 #include "vlf/dynamic/changed_charts.h"
 #include "vlf/render/gl/gl_object.h"
+#include "vlf/render/gl/receiver_grid.h"
 #include "vlf/render/gl/shaders/shared.h"
 
 #include <array>
@@ -17,12 +18,16 @@ class ChangedLight {
     /// `looksUp`: whether anything looks factors up; else there are none. Both must outlive it.
     ChangedLight(const Scene& scene, const LightField& field, bool looksUp);
 
+    bool looksUp() const { return looksUp_; }
+
     /// The atlases are of the field's charts.
     void update(const IrradianceAtlas& with, const IrradianceAtlas& without);
 
     std::span<const shared::ReceiverData> receivers() const { return receivers_; }
     /// Eight corners around each receiver's changed part.
     const std::vector<std::array<Vec3, 8>>& places() const { return places_; }
+    /// Which of them may be where.
+    const ReceiverGrid& grid() const { return grid_; }
     float tolerance() const { return charts_.tolerance(); }
 
     /// Binds the factors to shared::kChangeUnit.
@@ -37,6 +42,7 @@ class ChangedLight {
     const LightField& field_;
     ChangedCharts charts_;
     std::vector<shared::ReceiverData> receivers_;
+    ReceiverGrid grid_;
     std::vector<std::array<Vec3, 8>> places_;
     std::vector<std::uint32_t> packed_;
     TextureObject factors_;  ///< in the atlas; where nothing has changed they are not read

@@ -24,8 +24,8 @@ class HitBuffers {
   public:
     HitBuffers();
 
-    /// `mirrorTriangles` are the scene's triangles by those of the mirrors' batches. The objects are
-    /// gone then. Throws InputError if one of the buffers exceeds what the GPU can hold.
+    /// `mirrorTriangles` are the scene's triangles by those of the mirrors' batches. The objects
+    /// are gone then. Throws InputError if one of the buffers exceeds what the GPU can hold.
     void loadRoom(const Scene& scene, const std::vector<Chart>& charts,
                   const std::vector<TriangleCharts>& triangleCharts,
                   const std::vector<std::uint32_t>& mirrorTriangles);

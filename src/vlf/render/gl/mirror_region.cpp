@@ -22,8 +22,8 @@ MirrorPlanes mirrorPlanesOf(const Scene& scene, const LightField& field, const R
         const RoomVertex& corner = room.vertices[room.indices[batch.firstIndex + 3 * i]];
         const Chart& chart = field.charts[room.mirrorCharts[corner.mirror]];
         const Vec4 plane(chart.normal, glm::dot(chart.normal, scene.position(triangle, 0)));
-        const bool known = std::any_of(
-            mirrors.planes.begin(), mirrors.planes.end(), [&](const Vec4& p) {
+        const bool known =
+            std::any_of(mirrors.planes.begin(), mirrors.planes.end(), [&](const Vec4& p) {
                 return glm::dot(Vec3(p), Vec3(plane)) > 1 - kSamePlane &&
                        std::abs(p.w - plane.w) < kSamePlane * (1 + std::abs(p.w));
             });
@@ -40,8 +40,7 @@ void MirrorRegion::addSphere(const Vec4& sphere) {
     std::array<Vec3, 8> corners;
     for (int i = 0; i < 8; ++i)
         corners[static_cast<std::size_t>(i)] =
-            Vec3(sphere) +
-            sphere.w * Vec3(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1);
+            Vec3(sphere) + sphere.w * Vec3(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1);
     addHull(corners);
 }
 

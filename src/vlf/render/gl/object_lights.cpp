@@ -71,8 +71,7 @@ void ObjectLights::arrange() {
                          ") than this GPU holds; subdivide them less, or render with --backend "
                          "cpu");
     vertexCapacity_ = std::max<std::size_t>(vertices, 64);
-    vertexLight_ =
-        makeBuffer(nullptr, vertexCapacity_ * sizeof(Vec3), GL_DYNAMIC_STORAGE_BIT);
+    vertexLight_ = makeBuffer(nullptr, vertexCapacity_ * sizeof(Vec3), GL_DYNAMIC_STORAGE_BIT);
     glTextureBuffer(vertexTexture_.id(), GL_RGB32F, vertexLight_.id());
 }
 
@@ -101,8 +100,8 @@ void ObjectLights::load(const LitObject& object, const Place& place) {
                        packRgb9e5);
         glTextureSubImage2D(atlas_.id(), 0, static_cast<GLint>(place.x),
                             static_cast<GLint>(place.y), static_cast<GLsizei>(light.width),
-                            static_cast<GLsizei>(light.height), GL_RGB,
-                            GL_UNSIGNED_INT_5_9_9_9_REV, packed_.data());
+                            static_cast<GLsizei>(light.height), GL_RGB, GL_UNSIGNED_INT_5_9_9_9_REV,
+                            packed_.data());
     } else if (!object.vertexIrradiance.empty()) {
         glNamedBufferSubData(vertexLight_.id(),
                              static_cast<GLintptr>(sizeof(Vec3) * place.firstVertex),

@@ -27,8 +27,7 @@ GpuObjectMesh::GpuObjectMesh(std::shared_ptr<const ObjectModel> kept, const LitO
       texels(object.texels),
       chartSum(chartSumOf(object.texels)),
       geometry(makeObjectGeometry(*object.mesh, object.texels)),
-      vertices(
-          makeBuffer(geometry.vertices.data(), geometry.vertices.size() * sizeof(RoomVertex))),
+      vertices(makeBuffer(geometry.vertices.data(), geometry.vertices.size() * sizeof(RoomVertex))),
       indices(makeBuffer(geometry.indices.data(), geometry.indices.size() * 4)),
       vertexArray(makeRoomVertexArray(vertices, indices)),
       textures(object.mesh->scene) {

@@ -22,9 +22,7 @@ struct GpuObjectMesh {
     /// Whether it is what draws an object.
     bool draws(const LitObject& object) const;
     std::uint64_t bytes() const;
-    bool hasMirrors() const {
-        return !geometry.batches.empty() && geometry.batches.back().mirror;
-    }
+    bool hasMirrors() const { return !geometry.batches.empty() && geometry.batches.back().mirror; }
 
     std::shared_ptr<const ObjectModel> model;
     const ObjectMesh* mesh;

@@ -9,6 +9,8 @@ namespace {
 
 using namespace shared;
 
+constexpr GLintptr kGridBytes = GLintptr{16} * kGridTexels;
+
 std::uint32_t bits(float v) {
     return std::bit_cast<std::uint32_t>(v);
 }
@@ -22,8 +24,7 @@ Vec4 sphereAround(const std::vector<Vec4>& spheres) {
     }
     const Vec3 centre = 0.5f * (lower + upper);
     float radius = 0;
-    for (const Vec4& s : spheres)
-        radius = std::max(radius, glm::distance(centre, Vec3(s)) + s.w);
+    for (const Vec4& s : spheres) radius = std::max(radius, glm::distance(centre, Vec3(s)) + s.w);
     return spheres.empty() ? Vec4(0) : Vec4(centre, radius);
 }
 
@@ -96,11 +97,12 @@ void ObjectPass::loadRecords() {
     count_ = records_.size();
     if (!recordBuffer_ || count_ > capacity_) {
         capacity_ = std::max<std::size_t>(count_, 8);
-        recordBuffer_ = makeBuffer(nullptr, capacity_ * sizeof(Record), GL_DYNAMIC_STORAGE_BIT);
+        recordBuffer_ =
+            makeBuffer(nullptr, kGridBytes + capacity_ * sizeof(Record), GL_DYNAMIC_STORAGE_BIT);
         glTextureBuffer(recordTexture_.id(), GL_RGBA32UI, recordBuffer_.id());
     }
     if (count_ > 0)
-        glNamedBufferSubData(recordBuffer_.id(), 0,
+        glNamedBufferSubData(recordBuffer_.id(), kGridBytes,
                              static_cast<GLsizeiptr>(count_ * sizeof(Record)), records_.data());
     data_.counts.x = static_cast<int>(count_);
     glNamedBufferSubData(dataBuffer_.id(), 0, sizeof data_, &data_);
@@ -110,7 +112,11 @@ void ObjectPass::setChange(const ChangedLight& change) {
     data_.tolerance.x = change.tolerance();
     data_.counts.y = static_cast<int>(change.receivers().size());
     std::copy(change.receivers().begin(), change.receivers().end(), data_.receivers);
+    data_.gridOrigin = change.grid().origin();
+    data_.gridScale = change.grid().scale();
     glNamedBufferSubData(dataBuffer_.id(), 0, sizeof data_, &data_);
+    if (change.looksUp())
+        glNamedBufferSubData(recordBuffer_.id(), 0, kGridBytes, change.grid().cells().data());
 }
 
 void ObjectPass::bind() const {
@@ -191,7 +197,7 @@ void ObjectPass::drawLines(LinePass& lines, bool normals) const {
 }
 
 std::uint64_t ObjectPass::bytes() const {
-    return meshes_.bytes() + lights_.bytes() + capacity_ * sizeof(Record);
+    return meshes_.bytes() + lights_.bytes() + kGridBytes + capacity_ * sizeof(Record);
 }
 
 }  // namespace vlf::gl

@@ -42,22 +42,21 @@ void ObjectStage::addDefines(Defines& defines, bool mirror, bool traced, bool pr
     if (!traced && !probed && !objects_.probeCentres().empty()) defines.emplace("PROBES", "1");
 }
 
-std::optional<PixelRectangle> ObjectStage::region(const View& view, const MirrorPlanes& mirrors,
-                                                  const PixelRectangle& part, bool traced,
-                                                  bool alone) const {
+ObjectStage::Regions ObjectStage::regions(const View& view, const MirrorPlanes& mirrors,
+                                          const PixelRectangle& part, bool traced,
+                                          bool alone) const {
     // Traced, what is reflected twice shows objects elsewhere; shadows are on everything.
-    if (traced && !(alone && objects_.probeCentres().empty())) return part;
-    if (!shadows_.empty()) return part;
-    MirrorRegion region(view, mirrors);
-    for (const Vec4& sphere : objects_.spheres()) region.addSphere(sphere);
+    if (!shadows_.empty() || (traced && !(alone && objects_.probeCentres().empty())))
+        return {part, {}};
+    MirrorRegion objects(view, mirrors), change(view, mirrors);
+    for (const Vec4& sphere : objects_.spheres()) objects.addSphere(sphere);
     if (!traced)
-        for (const auto& corners : change_->places()) region.addHull(corners);
-    return region.within(part);
+        for (const auto& corners : change_->places()) change.addHull(corners);
+    return {objects.within(part), change.within(part)};
 }
 
 std::uint64_t ObjectStage::bytes() const {
-    return objects_.bytes() + (change_ ? change_->bytes() : 0) + probes_.bytes() +
-           shadows_.bytes();
+    return objects_.bytes() + (change_ ? change_->bytes() : 0) + probes_.bytes() + shadows_.bytes();
 }
 
 }  // namespace vlf::gl

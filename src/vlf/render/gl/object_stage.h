@@ -51,10 +51,13 @@ class ObjectStage {
     /// Of shaders of the room. `probed`: the picture is a face of a probe.
     void addDefines(Defines& defines, bool mirror, bool traced, bool probed) const;
 
-    /// Where a mirror of the room shows objects or what they do, within `part`. `alone`: there is
-    /// no other plane of mirrors in the room.
-    std::optional<PixelRectangle> region(const View& view, const MirrorPlanes& mirrors,
-                                         const PixelRectangle& part, bool traced, bool alone) const;
+    /// Where a mirror of the room shows objects, or only the light they have changed, within
+    /// `part`. `alone`: there is no other plane of mirrors in the room.
+    struct Regions {
+        std::optional<PixelRectangle> objects, change;
+    };
+    Regions regions(const View& view, const MirrorPlanes& mirrors, const PixelRectangle& part,
+                    bool traced, bool alone) const;
 
     std::uint64_t bytes() const;
 

@@ -105,8 +105,8 @@ struct Renderer::Impl {
         vertexArray = makeRoomVertexArray(vertices, indices);
         for (const RoomBatch& batch : batches) {
             materialBuffers.push_back(makeBuffer(&batch.data, sizeof batch.data));
-            mirrorPlanes.push_back(
-                batch.mirror ? mirrorPlanesOf(scene, lightField, room, batch) : MirrorPlanes{});
+            mirrorPlanes.push_back(batch.mirror ? mirrorPlanesOf(scene, lightField, room, batch)
+                                                : MirrorPlanes{});
             planes += mirrorPlanes.back().anywhere ? MirrorPlanes::kMost
                                                    : mirrorPlanes.back().planes.size();
         }
@@ -214,20 +214,29 @@ struct Renderer::Impl {
                 drawBatch(i, definesOf(batches[i], settings, !objects.empty()));
     }
 
-    /// With objects where it shows them, and elsewhere as if there were none.
+    /// With objects where it shows them, with changed light where it shows that, and elsewhere as
+    /// if there were none. What has been drawn is not drawn again.
     void drawMirror(std::size_t i, const View& view, const RenderSettings& settings) {
         const PixelRectangle part = partOf(view);
-        const auto region = objects.region(view, mirrorPlanes[i], part,
-                                           settings.mode == DisplayMode::raytraced, planes == 1);
-        if (region) {
-            glScissor(region->x, region->y, region->width, region->height);
-            drawBatch(i, definesOf(batches[i], settings, true));
-            glScissor(part.x, part.y, part.width, part.height);
-        }
-        if (region && *region == part) return;
-        glDepthFunc(GL_LESS);
-        drawBatch(i, definesOf(batches[i], settings));
+        const ObjectStage::Regions regions = objects.regions(
+            view, mirrorPlanes[i], part, settings.mode == DisplayMode::raytraced, planes == 1);
+        const Defines plain = definesOf(batches[i], settings);
         glDepthFunc(GL_LEQUAL);
+        if (regions.objects) drawWithin(*regions.objects, i, definesOf(batches[i], settings, true));
+        glDepthFunc(GL_LESS);
+        if (regions.change && regions.objects != part) {
+            Defines changed = plain;
+            changed.emplace("CHANGED", "1");
+            drawWithin(*regions.change, i, changed);
+        }
+        if (regions.objects != part && regions.change != part) drawWithin(part, i, plain);
+        glDepthFunc(GL_LEQUAL);
+        glScissor(part.x, part.y, part.width, part.height);
+    }
+
+    void drawWithin(const PixelRectangle& r, std::size_t i, const Defines& defines) {
+        glScissor(r.x, r.y, r.width, r.height);
+        drawBatch(i, defines);
     }
 
     void drawProbes() {
@@ -235,19 +244,19 @@ struct Renderer::Impl {
         RenderSettings settings;
         settings.tone.reset();
         const ViewData shown = viewData;
-        objects.drawProbes(
-            nearest, [&](const Mat4& clipFromWorld, const Vec3& eye, GLuint framebuffer) {
-                View face;
-                face.width = face.height = ReflectionProbes::kSize;
-                face.clipFromWorld = clipFromWorld;
-                face.eye = eye;
-                setView(face, settings);
-                prepare(face, framebuffer);
-                objects.bind();
-                glBindVertexArray(vertexArray.id());
-                for (std::size_t i = 0; i < batches.size(); ++i)
-                    drawBatch(i, definesOf(batches[i], settings, true, true));
-            });
+        objects.drawProbes(nearest,
+                           [&](const Mat4& clipFromWorld, const Vec3& eye, GLuint framebuffer) {
+                               View face;
+                               face.width = face.height = ReflectionProbes::kSize;
+                               face.clipFromWorld = clipFromWorld;
+                               face.eye = eye;
+                               setView(face, settings);
+                               prepare(face, framebuffer);
+                               objects.bind();
+                               glBindVertexArray(vertexArray.id());
+                               for (std::size_t i = 0; i < batches.size(); ++i)
+                                   drawBatch(i, definesOf(batches[i], settings, true, true));
+                           });
         viewData = shown;
         glNamedBufferSubData(viewBuffer.id(), 0, sizeof viewData, &viewData);
         memory.objects = objects.bytes();
@@ -360,7 +369,7 @@ struct Renderer::Impl {
     std::vector<std::uint32_t> mirrorTriangles;
     ObjectStage objects;
     std::optional<std::uint64_t> roomVersion;  ///< of the DynamicRoom that is shown
-    std::optional<Drawings> drawings;  ///< once one is drawn
+    std::optional<Drawings> drawings;          ///< once one is drawn
     ViewData viewData{};
     GpuMemory memory;
     std::vector<std::string> notices;

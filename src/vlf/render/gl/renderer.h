@@ -52,7 +52,9 @@ struct GpuMemory {
     std::uint64_t objects = 0;   ///< but for what is in `hits`
     std::uint64_t radianceElements = 0;
 
-    std::uint64_t total() const { return geometry + atlas + radiance + textures + hits + drawings + objects; }
+    std::uint64_t total() const {
+        return geometry + atlas + radiance + textures + hits + drawings + objects;
+    }
 };
 
 /// Every call, construction and destruction included, needs the context current in which it was

@@ -9,9 +9,9 @@ namespace vlf::gl {
 
 namespace {
 
-constexpr float kWidest = 1.48f;       // half the angle of view, radians
-constexpr float kNearest = 0.01f;      // the near plane, of the distance to the objects
-constexpr float kFarthest = 1e30f;     // where there is nothing
+constexpr float kWidest = 1.48f;    // half the angle of view, radians
+constexpr float kNearest = 0.01f;   // the near plane, of the distance to the objects
+constexpr float kFarthest = 1e30f;  // where there is nothing
 
 }  // namespace
 
@@ -72,8 +72,7 @@ void ShadowMap::require(int size) {
     framebuffer_ = makeFramebuffer();
     glNamedFramebufferTexture(framebuffer_.id(), GL_COLOR_ATTACHMENT0, map_.id(), 0);
     glNamedFramebufferTexture(framebuffer_.id(), GL_DEPTH_ATTACHMENT, depth_.id(), 0);
-    if (!buffer_)
-        buffer_ = makeBuffer(nullptr, sizeof(shared::ShadowData), GL_DYNAMIC_STORAGE_BIT);
+    if (!buffer_) buffer_ = makeBuffer(nullptr, sizeof(shared::ShadowData), GL_DYNAMIC_STORAGE_BIT);
 }
 
 void ShadowMap::draw(GLuint roomProgram, GLuint objectProgram,
@@ -114,7 +113,8 @@ void ShadowMap::bind() const {
 }
 
 std::uint64_t ShadowMap::bytes() const {
-    return std::uint64_t{20} * static_cast<std::uint64_t>(size_) * static_cast<std::uint64_t>(size_);
+    return std::uint64_t{20} * static_cast<std::uint64_t>(size_) *
+           static_cast<std::uint64_t>(size_);
 }
 
 }  // namespace vlf::gl

@@ -1,7 +1,6 @@
 // Objects before what a mirror of the room shows by lookup: the reflection is traced among the
 // objects alone, and the distances that are looked up say how far.
 #include "path_step.glsl"
-#include "changed_light.glsl"
 #ifdef PROBES
 #include "probed_path.glsl"
 #endif
@@ -25,8 +24,7 @@ vec3 metRadiance(int object, TraceHit hit, TracedPath path) {
 // `seen` is what the mirror shows without objects: a surface of radiance `front` at the distance
 // `nearest` that covers so much of another one at the distance `behind`.
 vec3 withObjects(vec3 seen, vec3 front, float nearest, float behind, float coverage, vec3 toEye) {
-    vec3 n = normalize(mirrorNormal), direction = reflect(-toEye, n);
-    if (dot(direction, geometricNormal) <= 0) direction = reflect(-toEye, geometricNormal);
+    vec3 direction = reflectedSight(toEye);
     TracedPath path =
         TracedPath(position + view.eye.w * geometricNormal, direction, vec3(1));
     vec3 change = changeOfLight(path.origin, direction, coverage < 0.5 ? behind : nearest);

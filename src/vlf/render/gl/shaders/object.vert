@@ -27,10 +27,10 @@ void main() {
     gl_Position = view.clipFromWorld * vec4(world, 1);
     uv = uvIn;
 #ifdef BY_TEXEL
-    uvec4 light = texelFetch(objectRecords, kObjectTexels * object + 6);
+    uvec4 light = texelFetch(objectRecords, kGridTexels + kObjectTexels * object + 6);
     atlasTexel = vec2(light.xy) + atlasTexelIn;
 #else
-    uint first = texelFetch(objectRecords, kObjectTexels * object + 5).w;
+    uint first = texelFetch(objectRecords, kGridTexels + kObjectTexels * object + 5).w;
     vertexIrradiance = texelFetch(vertexLight, int(first + lightIn)).rgb;
 #endif
 #ifdef MIRROR

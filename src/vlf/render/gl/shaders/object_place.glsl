@@ -4,7 +4,7 @@ layout(binding = kObjectUnit) uniform usamplerBuffer objectRecords;
 layout(location = kObjectLocation) uniform int object;
 
 vec4 objectRow(int row) {
-    return uintBitsToFloat(texelFetch(objectRecords, kObjectTexels * object + row));
+    return uintBitsToFloat(texelFetch(objectRecords, kGridTexels + kObjectTexels * object + row));
 }
 
 // In the world; w: 1 for points, 0 for directions, which are then scaled.

@@ -1,7 +1,6 @@
 // The objects in the room, from the records of object_records.h.
+#include "objects_block.glsl"
 
-layout(std140, binding = kObjectsBlock) uniform ObjectsBlock { ObjectsData objects; };
-layout(binding = kObjectUnit) uniform usamplerBuffer objectRecords;
 layout(binding = kVertexLightUnit) uniform samplerBuffer vertexLight;
 layout(binding = kObjectAtlasUnit) uniform sampler2D objectAtlas;
 
@@ -22,7 +21,7 @@ const Body kRoomBody =
     Body(-1, mat3(1), vec3(0), 1, 0u, 0u, 0u, 0u, 0u, uvec2(0), false, -1);
 
 uvec4 objectRecord(int object, int texel) {
-    return texelFetch(objectRecords, kObjectTexels * object + texel);
+    return texelFetch(objectRecords, kGridTexels + kObjectTexels * object + texel);
 }
 
 Body bodyOf(int object) {

@@ -6,6 +6,9 @@ layout(binding = kElementUnit) uniform usamplerBuffer elements;
 layout(binding = kRecordUnit) uniform usamplerBuffer records;
 
 #include "direction_set.glsl"
+#if defined(OBJECTS) || defined(CHANGED)
+#include "changed_mirror.glsl"
+#endif
 #ifdef OBJECTS
 #include "mirrored_objects.glsl"
 #endif
@@ -124,12 +127,13 @@ vec3 mirrorRadiance() {
     for (int k = 0; k < 3; ++k)
         sum += bilinear(sightOf(t.corner[k], t.weight[k], sense, toEye), depth);
     vec3 radiance = sum.w > 0 ? sum.rgb / sum.w : vec3(0);
-#ifdef OBJECTS
     float distance_ = sum.w > 0 ? depth / sum.w : kNone;
-    return withObjects(radiance, radiance, distance_, distance_, 1, toEye);
-#else
-    return radiance;
+#ifdef OBJECTS
+    radiance = withObjects(radiance, radiance, distance_, distance_, 1, toEye);
+#elif defined(CHANGED)
+    radiance = withChange(radiance, distance_, distance_, 1, toEye);
 #endif
+    return radiance;
 }
 #else
 const int kSteps = 4;
@@ -230,6 +234,8 @@ vec3 mirrorRadiance() {
     vec3 seen = inverseRoot > 0 ? radianceOf(1 / (inverseRoot * inverseRoot), shares) : vec3(0);
 #ifdef OBJECTS
     seen = withObjects(seen, radianceOf(front), nearest, behind, coverage, toEye);
+#elif defined(CHANGED)
+    seen = withChange(seen, nearest, behind, coverage, toEye);
 #endif
     return seen;
 }

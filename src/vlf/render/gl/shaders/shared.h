@@ -65,6 +65,11 @@ VLF_INT kObjectTexels = 7;
 VLF_INT kLitByTexel = 1;  // the flag
 VLF_INT kProbeShift = 8;  // bits from here on: layer of the reflection probe + 1; 0: none
 
+// Before the objects in kObjectUnit: four cells a texel of the grid of receivers, see
+// receiver_grid.h.
+VLF_INT kGridSide = 32;
+VLF_INT kGridTexels = 8192;
+
 VLF_INT kMostReceivers = 32;
 
 // An element of the radiance field, from the lowest bit: the distance (0: none), then the sum of
@@ -127,13 +132,16 @@ struct ObjectsData {
     vec4 sphere;     // around all of them: centre, radius
     ivec4 counts;    // objects, receivers
     vec4 tolerance;  // metres between a surface and where the radiance field tells it
+    vec4 gridOrigin;
+    vec4 gridScale;  // cells a metre
     ReceiverData receivers[kMostReceivers];
 };
 
 #ifdef __cplusplus
 #undef VLF_INT
+static_assert(4 * kGridTexels == kGridSide * kGridSide * kGridSide);
 static_assert(sizeof(ShadowData) == 64 + 2 * 16);
-static_assert(sizeof(ObjectsData) == 3 * 16 + kMostReceivers * 5 * 16);
+static_assert(sizeof(ObjectsData) == 5 * 16 + kMostReceivers * 5 * 16);
 static_assert(sizeof(ViewData) == 64 + 7 * 16);
 static_assert(sizeof(MaterialData) == 4 * 16);
 }  // namespace vlf::shared

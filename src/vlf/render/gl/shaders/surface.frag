@@ -19,7 +19,7 @@ in vec3 position;
 #ifdef MIRROR
 flat in vec3 geometricNormal;
 flat in uint mirror;
-#ifdef OBJECTS
+#if defined(OBJECTS) || defined(CHANGED)
 layout(binding = kMirrorMapUnit) uniform sampler2D mirrorMap;
 in vec3 mirrorNormal;
 #endif

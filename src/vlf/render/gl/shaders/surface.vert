@@ -14,7 +14,7 @@ layout(location = kMirrorAttribute) in uint mirrorIn;
 
 flat out vec3 geometricNormal;
 flat out uint mirror;
-#ifdef OBJECTS
+#if defined(OBJECTS) || defined(CHANGED)
 layout(location = kMirrorNormalAttribute) in vec2 mirrorNormalIn;
 out vec3 mirrorNormal;
 #endif
@@ -37,7 +37,7 @@ void main() {
 #ifdef MIRROR
     geometricNormal = fromOctahedron(geometricNormalIn);
     mirror = mirrorIn;
-#ifdef OBJECTS
+#if defined(OBJECTS) || defined(CHANGED)
     mirrorNormal = fromOctahedron(mirrorNormalIn);
 #endif
 #endif
