@@ -11,6 +11,7 @@ namespace {
 
 constexpr std::size_t kLinesPerBlock = 32;
 constexpr float kContact = 4;  // ray epsilons: nearer than this a surface is covered
+constexpr float kEnough = 12;  // lines to a texel, block or group
 
 /// What one end of each line of a block sees of the room.
 struct Views {
@@ -135,9 +136,10 @@ class DeltaLines::Block {
                              const Vec3& throughput) {
             const bool covered = !inMirror && distance < s_.length[i] + epsilon_;
             if (covered || seen.hidden[i] < distance) return;
-            const float area = room_.texels.area[texel] * coverage_.uncovered(texel);
+            const Unit unit = unitAt(texel, distance);
+            const float area = areaOf(unit, texel);
             if (area > 0)
-                ends.push_back({texel, objectEnds[first_ + i].receiver,
+                ends.push_back({unit, numberOf(unit, texel), objectEnds[first_ + i].receiver,
                                 lost.radiance[i] - s_.shown[i], s_.weight[i] / area * throughput});
         };
         for (std::size_t i = 0; i < seen.rays.size(); ++i)
@@ -146,6 +148,25 @@ class DeltaLines::Block {
         for (const Sight& sight : seen.sights.others)
             if (sight.texel != kNoTexel && sight.covered)
                 add(sight.ray, sight.texel, sight.distance, sight.inMirror, sight.throughput);
+    }
+
+    /// The smallest that some lines reach: of n lines a steradian n a / d².
+    Unit unitAt(std::uint32_t texel, float distance) const {
+        const auto ends = static_cast<float>(2 * lines_.entries.size());
+        const float reached = kEnough * 4 * kPi * distance * distance / ends;  // m²
+        const float area = room_.texels.area[texel];
+        if (area >= reached) return Unit::texel;
+        return 16 * area >= reached ? Unit::block : Unit::group;
+    }
+    std::uint32_t numberOf(Unit unit, std::uint32_t texel) const {
+        if (unit == Unit::texel) return texel;
+        return unit == Unit::block ? room_.texels.blockOf[texel] : room_.texels.groupOf[texel];
+    }
+    float areaOf(Unit unit, std::uint32_t texel) const {
+        const float uncovered = coverage_.uncovered(texel);
+        if (unit == Unit::texel || uncovered <= 0) return room_.texels.area[texel] * uncovered;
+        return unit == Unit::block ? room_.texels.blockArea[numberOf(unit, texel)]
+                                   : room_.texels.groups[numberOf(unit, texel)].area;
     }
 
     const ObjectLines& lines_;
@@ -177,7 +198,18 @@ void DeltaLines::addTo(RoomChange& change, std::span<const Vec3> ownRadiance) co
         for (const End& end : block) {
             const Vec3 own =
                 end.receiver == ObjectReceivers::kNone ? Vec3(0) : ownRadiance[end.receiver];
-            change.add(end.texel, end.gain * (own - end.lost));
+            const Vec3 irradiance = end.gain * (own - end.lost);
+            switch (end.unit) {
+                case Unit::texel:
+                    change.add(end.number, irradiance);
+                    break;
+                case Unit::block:
+                    change.addToBlock(end.number, irradiance);
+                    break;
+                case Unit::group:
+                    change.addToGroup(end.number, irradiance);
+                    break;
+            }
         }
 }
 

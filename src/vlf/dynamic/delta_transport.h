@@ -36,9 +36,14 @@ class DeltaLines {
     std::size_t bytes() const;
 
   private:
-    /// A texel that sees the object along a line.
+    /// What a line's light is dealt to: the farther from the object the more texels, so that single
+    /// ones do not flicker as lines pass over them.
+    enum class Unit : std::uint32_t { texel, block, group };
+
+    /// A piece of the room that sees the object along a line.
     struct End {
-        std::uint32_t texel;
+        Unit unit;
+        std::uint32_t number;  ///< of the texel, block or group
         std::uint32_t receiver;
         Vec3 lost;  ///< radiance seen before, less what a mirror of the object shows now
         Vec3 gain;  ///< irradiance per radiance, by the mirrors on the way

@@ -24,6 +24,7 @@ RoomChange::RoomChange(const RoomTexels& room)
     : room_(room),
       change_(room.source.size(), Vec3(0)),
       touched_(room.source.size(), 0),
+      blocks_(room.blockArea.size(), Vec3(0)),
       groups_(room.groups.size(), Vec3(0)) {
     for (std::uint32_t t = 0; t < room.source.size(); ++t)
         if (room.source[t] != kNoTexel && room.source[t] != t)
@@ -33,7 +34,10 @@ RoomChange::RoomChange(const RoomTexels& room)
 void RoomChange::clear() {
     for (const std::uint32_t t : texels_) change_[t] = Vec3(0), touched_[t] = 0;
     texels_.clear();
-    if (everywhere_) std::fill(groups_.begin(), groups_.end(), Vec3(0));
+    if (everywhere_) {
+        std::fill(blocks_.begin(), blocks_.end(), Vec3(0));
+        std::fill(groups_.begin(), groups_.end(), Vec3(0));
+    }
     all_ = Vec3(0);
     everywhere_ = false;
 }

@@ -11,7 +11,8 @@
 
 namespace vlf {
 
-/// Of single texels, of all texels of a group, and of all there are. Irradiance in W·m⁻².
+/// Of single texels, of all texels of a block or group (RoomTexels), and of all there are.
+/// Irradiance in W·m⁻².
 class RoomChange {
   public:
     explicit RoomChange(const RoomTexels& room);
@@ -25,6 +26,10 @@ class RoomChange {
         if (touched_[texel]) return;
         touched_[texel] = 1;
         texels_.push_back(texel);
+    }
+    void addToBlock(std::uint32_t block, const Vec3& irradiance) {
+        blocks_[block] += irradiance;
+        everywhere_ = true;
     }
     void addToGroup(std::uint32_t group, const Vec3& irradiance) {
         groups_[group] += irradiance;
@@ -50,14 +55,15 @@ class RoomChange {
   private:
     bool empty() const { return texels_.empty() && !everywhere_; }
     Vec3 changeOf(std::uint32_t texel) const {
-        return change_[texel] + groups_[room_.groupOf[texel]] + all_;
+        const std::uint32_t block = room_.blockOf[texel];
+        return change_[texel] + blocks_[block] + groups_[block / 4] + all_;
     }
 
     const RoomTexels& room_;
     std::vector<Vec3> change_;
     std::vector<std::uint8_t> touched_;
     std::vector<std::uint32_t> texels_;
-    std::vector<Vec3> groups_;
+    std::vector<Vec3> blocks_, groups_;
     Vec3 all_{0};
     bool everywhere_ = false;
     bool written_ = false;  ///< the last call of apply changed something

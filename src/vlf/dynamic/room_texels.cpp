@@ -34,6 +34,7 @@ void groupTexels(const Scene& scene, RoomTexels& room) {
         keyed.emplace_back(std::uint64_t{unwrap.texelChart[i]} << 32 | square, i);
     }
     room.groupOf.assign(unwrap.atlasSize(), 0);
+    room.blockOf.assign(unwrap.atlasSize(), 0);
     std::stable_sort(keyed.begin(), keyed.end(),
                      [](const auto& a, const auto& b) { return a.first < b.first; });
     for (std::size_t begin = 0, end = 0; begin < keyed.size(); begin = end) {
@@ -51,6 +52,17 @@ void groupTexels(const Scene& scene, RoomTexels& room) {
         group.count = static_cast<std::uint32_t>(end - begin);
         group.bounds = {bounds.centre(), 0.5f * glm::length(bounds.size())};
         room.groups.push_back(group);
+    }
+    // A quarter of a group has the group's number times four and its place in it.
+    room.blockArea.assign(4 * room.groups.size(), 0);
+    constexpr std::uint32_t kHalf = RoomTexels::kGroupSide / 2;
+    for (std::uint32_t i = 0; i < unwrap.texels.size(); ++i) {
+        const std::uint32_t texel = unwrap.texels[i];
+        const Chart& chart = unwrap.charts[unwrap.texelChart[i]];
+        const std::uint32_t x = texel % unwrap.atlasWidth - chart.x;
+        const std::uint32_t y = texel / unwrap.atlasWidth - chart.y;
+        room.blockOf[texel] = 4 * room.groupOf[texel] + y / kHalf % 2 * 2 + x / kHalf % 2;
+        room.blockArea[room.blockOf[texel]] += room.area[texel];
     }
 }
 

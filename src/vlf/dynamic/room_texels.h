@@ -44,6 +44,8 @@ struct RoomTexels {
     std::vector<TexelGroup> groups;
     std::vector<std::uint32_t> grouped;  ///< entries of unwrap.texels
     std::vector<std::uint32_t> groupOf;  ///< of covered texels
+    std::vector<std::uint32_t> blockOf;  ///< likewise: quarters of groups
+    std::vector<float> blockArea;        ///< m²
     Vec3 meanReflectance{0};             ///< diffuse, over all area
     float totalArea = 0;                 ///< m²
     std::vector<std::uint32_t> entryOf;  ///< of unwrap.texels, of covered texels
