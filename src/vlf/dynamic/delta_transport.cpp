@@ -47,9 +47,9 @@ void findHidden(const SightObjects& objects, std::vector<InstanceHit>& hits, Vie
     views.hidden.assign(views.rays.size(), std::numeric_limits<float>::infinity());
     if (!objects.rays || objects.lit.size() < 2) return;
     hits.resize(views.rays.size());
-    objects.rays->closest(views.rays, hits);
+    objects.rays->closestBut(objects.own, views.rays, hits);
     for (std::size_t i = 0; i < hits.size(); ++i)
-        if (hits[i] && hits[i].instance != objects.own) views.hidden[i] = hits[i].hit.t;
+        if (hits[i]) views.hidden[i] = hits[i].hit.t;
 }
 
 }  // namespace

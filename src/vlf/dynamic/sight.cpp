@@ -37,10 +37,10 @@ void SightTracer::findHits(std::span<const Ray> rays, bool first) {
         return;
     }
     objectHits_.resize(rays.size());
-    objects_.rays->closest(rays, objectHits_);
-    if (!first) return;
-    for (InstanceHit& hit : objectHits_)
-        if (hit.instance == objects_.own) hit.hit = {};
+    if (first && objects_.own != kNoObject)
+        objects_.rays->closestBut(objects_.own, rays, objectHits_);
+    else
+        objects_.rays->closest(rays, objectHits_);
 }
 
 void SightTracer::meet(const Path& path, const Ray& ray, std::size_t i) {

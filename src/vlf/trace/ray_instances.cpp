@@ -3,9 +3,15 @@
 #include "vlf/base/error.h"
 #include "vlf/trace/embree_scene.h"
 
+#include <cmath>
+#include <limits>
 #include <vector>
 
 namespace vlf {
+
+namespace {
+constexpr int kMaxCrossings = 64;  // of one instance by a ray
+}
 
 using EmbreeGeometry =
     std::unique_ptr<std::remove_pointer_t<RTCGeometry>, EmbreeRelease<rtcReleaseGeometry>>;
@@ -33,9 +39,8 @@ struct RayInstances::Impl {
     }
 
     bool sameScenes(std::span<const RayInstance> instances) const {
-        return std::equal(
-            scenes.begin(), scenes.end(), instances.begin(), instances.end(),
-            [](const RayScene* s, const RayInstance& i) { return s == i.scene; });
+        return std::equal(scenes.begin(), scenes.end(), instances.begin(), instances.end(),
+                          [](const RayScene* s, const RayInstance& i) { return s == i.scene; });
     }
 };
 
@@ -88,6 +93,33 @@ void RayInstances::occluded(std::span<const Ray> rays, std::span<std::uint8_t> b
         std::fill(blocked.begin(), blocked.end(), std::uint8_t{0});
     else
         embree::occluded(impl_->scene.get(), rays, blocked);
+}
+
+void RayInstances::closestBut(std::uint32_t excluded, std::span<const Ray> rays,
+                              std::span<InstanceHit> hits) const {
+    closest(rays, hits);
+    thread_local std::vector<std::uint32_t> crossing;
+    thread_local std::vector<Ray> beyond;
+    thread_local std::vector<InstanceHit> found;
+    crossing.clear(), beyond.clear();
+    const auto follow = [&](std::uint32_t i, float from) {
+        crossing.push_back(i);
+        beyond.push_back(rays[i]);
+        beyond.back().tMin = std::nextafter(from, std::numeric_limits<float>::infinity());
+    };
+    for (std::uint32_t i = 0; i < rays.size(); ++i)
+        if (hits[i] && hits[i].instance == excluded) follow(i, hits[i].hit.t);
+    for (int pass = 0; pass < kMaxCrossings && !crossing.empty(); ++pass) {
+        found.resize(beyond.size());
+        closest(beyond, found);
+        const std::vector<std::uint32_t> before(crossing);
+        crossing.clear(), beyond.clear();
+        for (std::size_t k = 0; k < before.size(); ++k) {
+            hits[before[k]] = found[k];
+            if (found[k] && found[k].instance == excluded) follow(before[k], found[k].hit.t);
+        }
+    }
+    for (const std::uint32_t i : crossing) hits[i] = {};
 }
 
 }  // namespace vlf

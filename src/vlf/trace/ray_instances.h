@@ -44,6 +44,10 @@ class RayInstances {
     void closest(std::span<const Ray> rays, std::span<InstanceHit> hits) const;
     void occluded(std::span<const Ray> rays, std::span<std::uint8_t> blocked) const;
 
+    /// The closest hits of all instances but number `excluded`, which rays pass through.
+    void closestBut(std::uint32_t excluded, std::span<const Ray> rays,
+                    std::span<InstanceHit> hits) const;
+
   private:
     struct Impl;
     std::unique_ptr<Impl> impl_;

@@ -134,7 +134,7 @@ TEST(DynamicRoom, LightsObjectsByOneAnotherAtOnce) {
         const auto [leftBright, rightBright] = face(shadow, 0.9f);
         EXPECT_GT(leftBright, 1.2f * leftDark);
         EXPECT_GT(rightBright, 1.2f * rightDark);
-        EXPECT_NEAR(leftBright / rightBright, 1, 0.03f);
+        EXPECT_NEAR(leftBright / rightBright, 1, 0.05f);  // but for later bounces
     }
 }
 

@@ -33,7 +33,6 @@ TEST(ObjectEmitters, ASphereLightsABlackRoomByTheInverseSquare) {
                 const float exact = kPi * 10 * 0.04f / d2 * 2 / std::sqrt(d2);
                 const float found = objects.irradiance().at(chart.x + x, chart.y + y).x;
                 worst = std::max<double>(worst, std::abs(found / exact - 1));
-                if (c == 0 && y == 9) printf("%u %g %g\n", x, exact, found);
             }
     }
     EXPECT_LT(worst, 0.1);

@@ -133,6 +133,33 @@ TEST(RayInstances, AreMetWhereTheyWereLastPlaced) {
     expectSameHits(instances, turned, someRays(1000, 1, 7), 1);
 }
 
+TEST(RayInstances, AllButOneAreMetAsIfItWereNotThere) {
+    const Posed all = someBodies(6, 1, 10);
+    RayInstances instances, others;
+    instances.place(all.instances);
+    const std::vector<Ray> rays = someRays(4000, 1, 11);
+    int passed = 0;
+    std::vector<InstanceHit> found(rays.size()), expected(rays.size()), any(rays.size());
+    instances.closest(rays, any);
+    for (const std::uint32_t excluded : {0u, 2u, 5u}) {
+        std::vector<RayInstance> rest = all.instances;
+        rest.erase(rest.begin() + excluded);
+        others.place(rest);
+        others.closest(rays, expected);
+        instances.closestBut(excluded, rays, found);
+        int different = 0;
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+            const std::uint32_t number =
+                expected[i].instance + (expected[i].instance >= excluded ? 1 : 0);
+            different += static_cast<bool>(found[i]) != static_cast<bool>(expected[i]) ||
+                         (found[i] && found[i].instance != number);
+            passed += found[i] && any[i].instance == excluded;
+        }
+        EXPECT_EQ(different, 0);
+    }
+    EXPECT_GT(passed, 10);
+}
+
 TEST(RayInstances, NoneAreMetByNothing) {
     RayInstances instances;
     const std::vector<Ray> rays = someRays(10, 1, 8);
