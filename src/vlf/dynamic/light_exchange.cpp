@@ -26,6 +26,7 @@ namespace vlf {
 namespace {
 
 constexpr int kShadowSamples = 4;       // of a texel, for each of an object's own
+constexpr float kSlightShadow = 1e-3f;  // of the room's mean irradiance
 constexpr float kLeastAmbient = 5e-4f;  // of the room's mean irradiance
 
 class Stopwatch {
@@ -142,8 +143,8 @@ void LightExchange::findShadows() {
         samples = std::max(samples, body.object->settings.directSamples);
     if (!casters_.empty()) {
         const TexelLoss loss =
-            findSoftShadows(scene_, roomRays_, texels_, coverage_, casterSpheres_,
-                            occluderOf(casterInstances_), kShadowSamples * samples);
+            findSoftShadows(scene_, roomRays_, texels_, coverage_, casterInstances_, casterSpheres_,
+                            kShadowSamples * samples, kSlightShadow * luminance(meanIrradiance_));
         for (std::size_t i = 0; i < loss.entries.size(); ++i)
             if (loss.loss[i] != Vec3(0))
                 shadows_.push_back({texels_.unwrap.texels[loss.entries[i]], -loss.loss[i]});

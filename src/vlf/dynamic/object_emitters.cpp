@@ -2,80 +2,16 @@
 
 #include "vlf/base/parallel.h"
 #include "vlf/dynamic/posed_scene.h"
+#include "vlf/dynamic/texel_square.h"
 
 #include <algorithm>
-#include <array>
 
 namespace vlf {
 
 namespace {
 
-constexpr int kPoints = 128;    // of all emitting surfaces of an object
-constexpr float kOff = 4;       // ray epsilons that a shadow ray ends before an emitter
-constexpr float kEven = 0.03f;  // relative deviation of the middle from its interpolation
-constexpr int kSide = RoomTexels::kGroupSide;
-
-/// The texels of one square.
-class Square {
-  public:
-    Square(const RoomTexels& room, const TexelGroup& group) : room_(room) {
-        entries_.fill(kNoTexel);
-        for (std::uint32_t i = group.first; i < group.first + group.count; ++i) {
-            const std::uint32_t entry = room.grouped[i];
-            const Chart& chart = room.unwrap.charts[room.unwrap.texelChart[entry]];
-            const std::uint32_t texel = room.unwrap.texels[entry];
-            const std::uint32_t x = texel % room.unwrap.atlasWidth - chart.x;
-            const std::uint32_t y = texel / room.unwrap.atlasWidth - chart.y;
-            entries_[y % kSide * kSide + x % kSide] = entry;
-        }
-        whole_ = group.count == kSide * kSide;
-    }
-
-    /// Calls find(entry) for as many texels as needed and keep(texel, irradiance) for all.
-    template <class Find, class Keep>
-    void light(Find find, Keep keep) const {
-        if (whole_) {
-            std::array<Vec3, 9> grid;
-            for (int i = 0; i < 9; ++i) grid[i] = find(entryAt(kAt[i % 3], kAt[i / 3]));
-            if (isEven(grid)) {
-                for (int y = 0; y < kSide; ++y)
-                    for (int x = 0; x < kSide; ++x)
-                        keep(room_.unwrap.texels[entryAt(x, y)], interpolate(grid, x, y));
-                return;
-            }
-        }
-        for (const std::uint32_t entry : entries_)
-            if (entry != kNoTexel) keep(room_.unwrap.texels[entry], find(entry));
-    }
-
-  private:
-    static constexpr std::array<int, 3> kAt{0, 3, 7};
-
-    std::uint32_t entryAt(int x, int y) const { return entries_[y * kSide + x]; }
-
-    static Vec3 interpolate(const std::array<Vec3, 9>& grid, int x, int y) {
-        const int i = x >= kAt[1], j = y >= kAt[1];
-        const float u = static_cast<float>(x - kAt[i]) / static_cast<float>(kAt[i + 1] - kAt[i]);
-        const float v = static_cast<float>(y - kAt[j]) / static_cast<float>(kAt[j + 1] - kAt[j]);
-        const auto row = [&](int r) { return (1 - u) * grid[3 * r + i] + u * grid[3 * r + i + 1]; };
-        return (1 - v) * row(j) + v * row(j + 1);
-    }
-
-    static bool isEven(const std::array<Vec3, 9>& grid) {
-        const auto at = [&](int i) { return luminance(grid[i]); };
-        const float u = static_cast<float>(kAt[1]) / kAt[2];
-        const auto even = [&](int a, int middle, int b) {
-            const float straight = (1 - u) * at(a) + u * at(b);
-            return std::abs(at(middle) - straight) <= kEven * std::max(at(middle), straight);
-        };
-        return even(0, 1, 2) && even(3, 4, 5) && even(6, 7, 8) && even(0, 3, 6) && even(1, 4, 7) &&
-               even(2, 5, 8);
-    }
-
-    const RoomTexels& room_;
-    std::array<std::uint32_t, kSide * kSide> entries_;
-    bool whole_ = false;
-};
+constexpr int kPoints = 128;  // of all emitting surfaces of an object
+constexpr float kOff = 4;     // ray epsilons that a shadow ray ends before an emitter
 
 }  // namespace
 
@@ -133,9 +69,10 @@ void findEmittedLight(const ObjectEmitters& emitters, const Scene& scene, const 
             const Vec3 point = positionAt(scene, p.triangle, p.barycentric);
             return emitted.irradiance(emitters.points, point, normal, geometric);
         };
-        Square(room, room.groups[g]).light(find, [&](std::uint32_t texel, const Vec3& irradiance) {
-            if (irradiance != Vec3(0)) parts[g].push_back({texel, irradiance});
-        });
+        TexelSquare(room, room.groups[g])
+            .light(0, find, [&](std::uint32_t texel, const Vec3& irradiance) {
+                if (irradiance != Vec3(0)) parts[g].push_back({texel, irradiance});
+            });
     });
     for (const std::vector<TexelChange>& part : parts)
         light.insert(light.end(), part.begin(), part.end());

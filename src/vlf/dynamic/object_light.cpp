@@ -1,6 +1,7 @@
 #include "vlf/dynamic/object_light.h"
 
 #include "vlf/base/parallel.h"
+#include "vlf/dynamic/soft_shadow.h"
 
 #include <algorithm>
 
@@ -14,15 +15,6 @@ constexpr float kTurnedAway = -0.1f;               // cosine: its neighbours may
 constexpr float kLeastCells = 6, kMostCells = 64;  // over an object's diameter
 
 }  // namespace
-
-ExtraOccluder occluderOf(const RayInstances& instances) {
-    return [&instances, own = std::vector<std::uint8_t>()](
-               std::span<const Ray> rays, std::span<std::uint8_t> blocked) mutable {
-        own.resize(rays.size());
-        instances.occluded(rays, own);
-        for (std::size_t i = 0; i < own.size(); ++i) blocked[i] |= own[i];
-    };
-}
 
 void ObjectLight::prepare(const DynamicObject& object, ObjectPlans& plans, int lines,
                           float roomCell) {

@@ -91,7 +91,4 @@ class ObjectLight {
     LitObject lit_;
 };
 
-/// The objects in the way of light.
-ExtraOccluder occluderOf(const RayInstances& instances);
-
 }  // namespace vlf

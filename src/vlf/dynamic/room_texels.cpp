@@ -83,9 +83,11 @@ RoomTexels makeRoomTexels(const Scene& scene, const RayScene& rays, const LightF
     room.entryOf.assign(unwrap.atlasSize(), kNoTexel);
     for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) {
         const Material& material = scene.material(t);
-        room.triangles.push_back({areaVector(scene, t), field.triangleCharts[t],
+        room.triangles.push_back({areaVector(scene, t), field.triangleCharts[t], kNoLight,
                                   !material.isMirror() && !material.isEmitter()});
     }
+    for (std::uint32_t l = 0; l < room.sources.lights.size(); ++l)
+        for (const std::uint32_t t : room.sources.lights[l].triangles) room.triangles[t].light = l;
     room.excluded.assign(unwrap.atlasSize(), 0);
     for (const auto* texels : {&unwrap.buried, &unwrap.divided})
         for (const ChartTexel& t : *texels) room.excluded[t.texel] = 1;

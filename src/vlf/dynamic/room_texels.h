@@ -13,12 +13,14 @@
 namespace vlf {
 
 inline constexpr std::uint32_t kNoTexel = 0xffffffffu;
+inline constexpr std::uint32_t kNoLight = 0xffffffffu;
 
 /// A triangle of the room as rays meet it.
 struct RoomTriangle {
     Vec3 areaVector{0};
     TriangleCharts charts;
-    bool plain = true;  ///< neither mirror nor emitter
+    std::uint32_t light = kNoLight;  ///< of RoomTexels::sources that it is a part of
+    bool plain = true;               ///< neither mirror nor emitter
 };
 
 /// Covered texels that lie together.

@@ -1,15 +1,18 @@
 #include "vlf/dynamic/soft_shadow.h"
 
 #include "vlf/base/parallel.h"
+#include "vlf/dynamic/sight.h"
+#include "vlf/dynamic/texel_square.h"
+#include "vlf/math/frame.h"
+#include "vlf/math/random.h"
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace vlf {
 
 namespace {
-
-constexpr std::size_t kTexelsPerBlock = 8;
 
 /// Whether a line from within `receiver` to within `light` may meet `object`: the cones that the
 /// two spheres fill overlap.
@@ -69,6 +72,19 @@ bool mayBeShadowed(const Sphere& receiver, const std::vector<Obstruction>& obstr
     });
 }
 
+/// Whether penumbrae are wider there than the receiver: at distance d from the object one is d
+/// times as wide as the light looks.
+bool isSmooth(const Sphere& receiver, const std::vector<Obstruction>& obstructions) {
+    return std::all_of(obstructions.begin(), obstructions.end(), [&](const Obstruction& o) {
+        const float lightDistance = glm::distance(receiver.centre, o.light.centre);
+        return std::all_of(o.objects.begin(), o.objects.end(), [&](const Sphere& object) {
+            const float distance = glm::distance(receiver.centre, object.centre);
+            return !mayHide(receiver, o.light, object) ||
+                   distance * 2 * o.light.radius > 2 * receiver.radius * lightDistance;
+        });
+    });
+}
+
 }  // namespace
 
 std::vector<std::uint32_t> texelsInShadow(const Scene& scene, const RoomTexels& room,
@@ -86,24 +102,191 @@ std::vector<std::uint32_t> texelsInShadow(const Scene& scene, const RoomTexels& 
     return found;
 }
 
+namespace {
+
+/// Loses light at one texel after the other. One for each thread.
+class ShadowedTexel {
+  public:
+    ShadowedTexel(const Scene& scene, const RayScene& rays, const RoomTexels& room,
+                  const RayInstances& casters, std::span<const Sphere> objects,
+                  const std::vector<Obstruction>& obstructions, int samples)
+        : scene_(scene),
+          rays_(rays),
+          room_(room),
+          casters_(casters),
+          objects_(objects),
+          obstructions_(obstructions),
+          samples_(samples),
+          gatherer_(scene, rays, room.unwrap, room.sources, 0),
+          tracer_(scene, rays, room) {
+        gatherer_.setExtraOccluder(occluderOf(casters));
+    }
+
+    Vec3 loss(const LightReceiver& receiver) {
+        sort({receiver.centre, receiver.radius});
+        Vec3 sum(0);
+        if (anySampled_) {
+            gatherer_.setImages(sampled_);
+            sum += gatherer_.irradianceBlocked(receiver, samples_);
+        }
+        if (anyLarge_)
+            for (std::uint32_t i = 0; i < objects_.size(); ++i) sum += behind(receiver, i);
+        return sum;
+    }
+
+  private:
+    /// Which images are to be sampled by their points, and which lights look larger than an object.
+    void sort(const Sphere& receiver) {
+        sampled_.assign(obstructions_.size(), 0);
+        large_.assign(room_.sources.lights.size(), 0);
+        anySampled_ = anyLarge_ = false;
+        for (std::size_t i = 0; i < obstructions_.size(); ++i) {
+            const Obstruction& o = obstructions_[i];
+            const LightImage& image = room_.sources.images[i];
+            float widest = 0;  // sr, of the objects
+            bool hidden = false;
+            for (const Sphere& object : o.objects)
+                if (mayHide(receiver, o.light, object)) {
+                    hidden = true;
+                    widest = std::max(widest, solidAngle(receiver.centre, object));
+                }
+            if (!hidden) continue;
+            const Light& light = room_.sources.lights[image.light];
+            const Vec3 way = o.light.centre - receiver.centre;
+            const float seen = light.area / std::max(glm::dot(way, way), 1e-20f);
+            if (image.depth == 0 && seen > kLarger * widest)
+                large_[image.light] = anyLarge_ = true;
+            else
+                sampled_[i] = anySampled_ = true;
+        }
+    }
+
+    /// Of a sphere; of one around the point, all there is.
+    static float solidAngle(const Vec3& point, const Sphere& sphere) {
+        const Vec3 way = sphere.centre - point;
+        const float sine2 = sphere.radius * sphere.radius / std::max(glm::dot(way, way), 1e-20f);
+        return sine2 >= 1 ? 4 * kPi : 2 * kPi * (1 - std::sqrt(1 - sine2));
+    }
+
+    /// Irradiance of large lights that object i hides.
+    Vec3 behind(const LightReceiver& r, std::uint32_t i) {
+        const Vec3 way = objects_[i].centre - r.centre;
+        const float angle = solidAngle(r.centre, objects_[i]);
+        if (angle >= 2 * kPi || glm::dot(r.normal, way) < -objects_[i].radius - r.radius)
+            return Vec3(0);
+        const Frame frame = frameFromNormal(glm::normalize(way));
+        const Vec2 shift(0.5f);  // the same for all: what they miss is the same
+        queue_.clear(), weights_.clear();
+        for (int k = 0; k < kConeSamples; ++k) {
+            const SurfacePoint& p = r.points[static_cast<std::size_t>(k) % r.points.size()];
+            const Vec3 geometric = r.side * geometricNormal(*r.scene, p.triangle);
+            Vec3 normal = shadingNormalAt(*r.scene, p.triangle, p.barycentric);
+            if (glm::dot(normal, geometric) < 0) normal = -normal;
+            const Vec2 u = r2Point(static_cast<std::uint32_t>(k), shift);
+            const float z = 1 - u.x * angle / (2 * kPi), phi = 2 * kPi * u.y;
+            const float s = std::sqrt(std::max(0.0f, 1 - z * z));
+            const Vec3 direction = frame.toWorld({s * std::cos(phi), s * std::sin(phi), z});
+            const float cosine = glm::dot(normal, direction);
+            if (cosine <= 0 || glm::dot(geometric, direction) <= 0) continue;
+            const float lobe = 0.5f * (1 + glm::dot(normal, geometric));
+            queue_.push_back(
+                {positionAt(*r.scene, p.triangle, p.barycentric) + rays_.epsilon() * geometric,
+                 direction});
+            weights_.push_back(cosine / lobe * angle / kConeSamples);
+        }
+        return emissionBehind(i);
+    }
+
+    /// Along the rays that meet object i first, what large lights would send without it.
+    Vec3 emissionBehind(std::uint32_t object) {
+        hits_.resize(queue_.size());
+        casters_.closest(queue_, hits_);
+        std::size_t kept = 0;
+        for (std::size_t k = 0; k < queue_.size(); ++k) {
+            if (!hits_[k] || hits_[k].instance != object) continue;
+            queue_[kept] = queue_[k], weights_[kept] = weights_[k], hits_[kept] = hits_[k];
+            ++kept;
+        }
+        queue_.resize(kept);
+        if (kept == 0) return Vec3(0);
+        tracer_.trace(queue_, sights_);
+        Vec3 sum(0);
+        for (const Sight& sight : sights_.others) {
+            if (sight.inMirror || sight.emission == Vec3(0)) continue;
+            const std::uint32_t light = room_.triangles[sight.triangle].light;
+            if (light != kNoLight && large_[light] && sight.distance > hits_[sight.ray].hit.t)
+                sum += weights_[sight.ray] * sight.emission;
+        }
+        return sum;
+    }
+
+    static constexpr float kLarger = 2;
+    static constexpr int kConeSamples = 32;
+
+    const Scene& scene_;
+    const RayScene& rays_;
+    const RoomTexels& room_;
+    const RayInstances& casters_;
+    std::span<const Sphere> objects_;
+    const std::vector<Obstruction>& obstructions_;
+    int samples_;
+    LightGatherer gatherer_;
+    SightTracer tracer_;
+    std::vector<std::uint8_t> sampled_, large_;  ///< by image, by light
+    bool anySampled_ = false, anyLarge_ = false;
+    std::vector<Ray> queue_;
+    std::vector<float> weights_;
+    std::vector<InstanceHit> hits_;
+    Sights sights_;
+};
+
+}  // namespace
+
+ExtraOccluder occluderOf(const RayInstances& instances) {
+    return [&instances, own = std::vector<std::uint8_t>()](
+               std::span<const Ray> rays, std::span<std::uint8_t> blocked) mutable {
+        own.resize(rays.size());
+        instances.occluded(rays, own);
+        for (std::size_t i = 0; i < own.size(); ++i) blocked[i] |= own[i];
+    };
+}
+
 TexelLoss findSoftShadows(const Scene& scene, const RayScene& rays, const RoomTexels& room,
-                          const Coverage& coverage, std::span<const Sphere> objects,
-                          const ExtraOccluder& occluder, int samples) {
-    TexelLoss result;
-    result.entries = texelsInShadow(scene, room, objects);
-    result.loss.resize(result.entries.size());
-    const std::size_t blocks = (result.entries.size() + kTexelsPerBlock - 1) / kTexelsPerBlock;
-    parallelFor(blocks, 1, [&](std::size_t block) {
-        LightGatherer gatherer(scene, rays, room.unwrap, room.sources, 0);
-        gatherer.setExtraOccluder(occluder);
-        const std::size_t end = std::min(result.entries.size(), (block + 1) * kTexelsPerBlock);
-        for (std::size_t i = block * kTexelsPerBlock; i < end; ++i) {
-            LightReceiver receiver = texelReceiver(scene, room.unwrap, result.entries[i]);
-            receiver.points = coverage.points(room, result.entries[i]);
-            if (!receiver.points.empty())
-                result.loss[i] = gatherer.irradianceBlocked(receiver, samples);
+                          const Coverage& coverage, const RayInstances& casters,
+                          std::span<const Sphere> objects, int samples, float slight) {
+    const std::vector<Obstruction> obstructions = findObstructions(room, objects);
+    std::vector<std::uint32_t> groups;
+    for (std::uint32_t g = 0; g < room.groups.size(); ++g)
+        if (mayBeShadowed(room.groups[g].bounds, obstructions)) groups.push_back(g);
+    std::vector<std::vector<std::pair<std::uint32_t, Vec3>>> parts(groups.size());
+    parallelFor(groups.size(), 1, [&](std::size_t i) {
+        ShadowedTexel texel(scene, rays, room, casters, objects, obstructions, samples);
+        const auto find = [&](std::uint32_t entry) {
+            LightReceiver receiver = texelReceiver(scene, room.unwrap, entry);
+            receiver.points = coverage.points(room, entry);
+            return receiver.points.empty() ? Vec3(0) : texel.loss(receiver);
+        };
+        const auto keep = [&](std::uint32_t t, const Vec3& loss) {
+            if (loss != Vec3(0)) parts[i].emplace_back(room.entryOf[t], loss);
+        };
+        const TexelGroup& group = room.groups[groups[i]];
+        if (isSmooth(group.bounds, obstructions)) {
+            TexelSquare(room, group).light(slight, find, keep);
+            return;
+        }
+        for (std::uint32_t k = group.first; k < group.first + group.count; ++k) {
+            const std::uint32_t entry = room.grouped[k];
+            const LightReceiver r = texelReceiver(scene, room.unwrap, entry);
+            if (mayBeShadowed({r.centre, r.radius}, obstructions))
+                keep(room.unwrap.texels[entry], find(entry));
         }
     });
+    TexelLoss result;
+    for (const auto& part : parts)
+        for (const auto& [entry, loss] : part) {
+            result.entries.push_back(entry);
+            result.loss.push_back(loss);
+        }
     return result;
 }
 

@@ -1,16 +1,25 @@
 #pragma once
-// Direct light of the room's emitters that objects take from its texels: shadow rays of the texels
-// that may lie in a shadow, as in the bake.
+// Direct light of the room's emitters that objects take from its texels, those that may lie in a
+// shadow.
+//
+// Of an emitter that looks small beside an object points are sampled, as in the bake, and held
+// against the objects. Of one that looks larger an object hides a small part, which few of its
+// points would find: there the directions to the object are sampled, and what of the emitter they
+// show behind it.
 
 #include "vlf/dynamic/coverage.h"
 #include "vlf/dynamic/room_texels.h"
 #include "vlf/propagate/light_gatherer.h"
+#include "vlf/trace/ray_instances.h"
 
 #include <cstdint>
 #include <span>
 #include <vector>
 
 namespace vlf {
+
+/// The objects in the way of light.
+ExtraOccluder occluderOf(const RayInstances& objects);
 
 /// Irradiance that entries of room.unwrap.texels lose, W·m⁻² >= 0.
 struct TexelLoss {
@@ -23,9 +32,11 @@ struct TexelLoss {
 std::vector<std::uint32_t> texelsInShadow(const Scene& scene, const RoomTexels& room,
                                           std::span<const Sphere> objects);
 
-/// `occluder`: the objects. What they cover loses nothing.
+/// `casters` are the objects, in the order of the spheres around them. What they cover loses
+/// nothing. `samples` of each texel, at most. Over squares of 64 texels where nine agree that it
+/// changes evenly, or to less than `slight` (W·m⁻²), it is interpolated.
 TexelLoss findSoftShadows(const Scene& scene, const RayScene& rays, const RoomTexels& room,
-                          const Coverage& coverage, std::span<const Sphere> objects,
-                          const ExtraOccluder& occluder, int samples);
+                          const Coverage& coverage, const RayInstances& casters,
+                          std::span<const Sphere> objects, int samples, float slight);
 
 }  // namespace vlf

@@ -100,8 +100,10 @@ DirectEstimate LightGatherer::estimateAll(const LightReceiver& receiver, int sam
                                           std::uint64_t pass) {
     effects_.clear();
     float sum = 0;
-    for (const LightImage& image : sources_.images)
-        sum += effects_.emplace_back(likelyEffect(receiver, image));
+    for (std::size_t i = 0; i < sources_.images.size(); ++i) {
+        const bool counts = counted_.empty() || counted_[i] != 0;
+        sum += effects_.emplace_back(counts ? likelyEffect(receiver, sources_.images[i]) : 0.0f);
+    }
     DirectEstimate total{.unoccluded = sum, .samples = samples};
     if (sum <= 0) return total;
     RandomStream random(seed_ + pass, receiver.key);

@@ -47,6 +47,9 @@ class LightGatherer {
     /// Things in the room that its rays do not know of.
     void setExtraOccluder(ExtraOccluder occluder) { extra_ = std::move(occluder); }
 
+    /// Of LightSources::images only those whose entry is not 0 count from now on; empty: all.
+    void setImages(std::span<const std::uint8_t> counted) { counted_ = counted; }
+
     /// Irradiance by about `samples` shadow rays; `pass` tells independent estimates of the same
     /// receiver apart.
     DirectEstimate irradiance(const LightReceiver& receiver, int samples, std::uint64_t pass);
@@ -94,6 +97,7 @@ class LightGatherer {
     const LightSources& sources_;
     std::uint64_t seed_;
     ExtraOccluder extra_;
+    std::span<const std::uint8_t> counted_;
     Counts counts_ = Counts::seen;
     std::vector<float> effects_;
     std::vector<Ray> shadowRays_;

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <string>
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 namespace vlf::test {
@@ -54,8 +56,7 @@ class SoftShadow : public testing::Test {
         const Sphere sphere{pose.point(model.bounds().centre), pose.scale * model.bounds().radius};
         candidates = texelsInShadow(plates().scene, plates().texels, {&sphere, 1});
         loss = findSoftShadows(plates().scene, plates().rays, plates().texels,
-                               Coverage(plates().texels), {&sphere, 1}, occluderOf(instances),
-                               samples);
+                               Coverage(plates().texels), instances, {&sphere, 1}, samples, 0);
     }
 
     Vec3 centre(std::uint32_t entry) const {
@@ -119,7 +120,8 @@ TEST_F(SoftShadow, OfASheetBeforeAllOfTheLampIsAllItsLight) {
 
 TEST_F(SoftShadow, FallsOnlyWhereTheObjectMayHideTheLamp) {
     cast(makePrimitive("sphere", {}), {{0, 0.3f, 0}, {1, 0, 0, 0}, 0.4f});
-    EXPECT_EQ(candidates, loss.entries);
+    for (const std::uint32_t entry : loss.entries)
+        EXPECT_NE(std::find(candidates.begin(), candidates.end(), entry), candidates.end());
     float farthest = 0;
     for (std::size_t i = 0; i < loss.entries.size(); ++i) {
         EXPECT_GE(lossAt(i), 0);
