@@ -2,6 +2,7 @@
 // Objects in baked rooms against the same scene path traced.
 
 #include "unit/dynamic/baked_room.h"
+#include "vlf/dynamic/coverage.h"
 #include "vlf/dynamic/posed_scene.h"
 #include "vlf/render/cpu/texel_reference.h"
 
