@@ -56,7 +56,7 @@ Vec3 placeAt(const Camera& camera, const RayScene& rays, const Options& options,
              int frame) {
     const Vec3 forward = glm::normalize(camera.look - camera.eye);
     const Hit hit = rays.closest({camera.eye, forward});
-    const float distance = 0.6f * (hit ? hit.t : glm::distance(camera.eye, camera.look));
+    const float distance = 0.75f * (hit ? hit.t : glm::distance(camera.eye, camera.look));
     const Vec3 right = glm::normalize(glm::cross(forward, camera.up));
     const float column = static_cast<float>(object % 10) - 0.5f * std::min(options.count - 1, 9);
     const float row = static_cast<float>(object / 10) - 0.5f * ((options.count - 1) / 10);

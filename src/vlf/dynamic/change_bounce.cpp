@@ -13,6 +13,8 @@ namespace vlf {
 namespace {
 
 constexpr std::size_t kRaysPerBlock = 256;
+constexpr double kPortion = 2.5e-8;  // of the room's flux, that a ray carries
+constexpr double kFewestRays = 1024, kMostRays = 32768;
 /// From this far on, in radii of a group, what arrives at one of its texels counts for them all:
 /// few rays would make single far texels flicker.
 constexpr float kFar = 5;
@@ -32,15 +34,16 @@ Vec3 fluxOf(const RoomChange& change, std::uint32_t texel, const RoomTexels& roo
 
 /// Systematic sampling: along the texels one after the other a ray for every portion of flux.
 void ChangeBounce::aim(const RoomChange& change, const Scene& scene, float epsilon,
-                       const RoomTexels& room, const Coverage& coverage, int rays) {
+                       const RoomTexels& room, const Coverage& coverage, float roomFlux) {
     rays_.clear(), carried_.clear(), flux_.clear();
     double all = 0;
     for (const std::uint32_t t : change.texels()) {
         flux_.push_back(fluxOf(change, t, room, coverage));
         all += size(flux_.back());
     }
-    const double portion = all / rays;
-    if (portion <= 0) return;
+    if (all <= 0) return;
+    const double portion =
+        std::clamp<double>(kPortion * roomFlux, all / kMostRays, all / kFewestRays);
     double passed = 0.5 * portion;
     for (std::size_t i = 0; i < flux_.size(); ++i) {
         const Vec3& flux = flux_[i];
@@ -139,10 +142,10 @@ void ChangeBounce::clear() {
 
 void ChangeBounce::find(const RoomChange& change, const Scene& scene, const RayScene& roomRays,
                         const RoomTexels& room, const Coverage& coverage,
-                        const SightObjects& objects, int rays) {
+                        const SightObjects& objects, float roomFlux) {
     groups_.resize(room.groups.size(), Vec3(0));
     clear();
-    aim(change, scene, roomRays.epsilon(), room, coverage, rays);
+    aim(change, scene, roomRays.epsilon(), room, coverage, roomFlux);
     shoot(scene, roomRays, room, objects);
     collect(room, coverage);
 }

@@ -22,13 +22,13 @@ struct TexelChange {
 
 class ChangeBounce {
   public:
-    static constexpr int kRays = 4096;
-
-    /// Finds what the changes make the texels send to one another: the first bounce by `rays` rays,
-    /// each from a texel picked in proportion to its flux, the rest evenly all over the room.
+    /// Finds what the changes make the texels send to one another: the first bounce by rays, each
+    /// from a texel picked in proportion to its flux, the rest evenly all over the room.
+    /// `roomFlux`: all that the room's texels send, W; a ray carries a fixed small part of it, so
+    /// that what it does to the texels that it comes to is as slight whatever the change.
     void find(const RoomChange& change, const Scene& scene, const RayScene& roomRays,
               const RoomTexels& room, const Coverage& coverage, const SightObjects& objects,
-              int rays = kRays);
+              float roomFlux);
 
     /// Adds what was found, the rest only if it is more than `leastAmbient` (luminance, W·m⁻²).
     void addTo(RoomChange& change, float leastAmbient) const;
@@ -44,7 +44,7 @@ class ChangeBounce {
     };
 
     void aim(const RoomChange& change, const Scene& scene, float epsilon, const RoomTexels& room,
-             const Coverage& coverage, int rays);
+             const Coverage& coverage, float roomFlux);
     void shoot(const Scene& scene, const RayScene& roomRays, const RoomTexels& room,
                const SightObjects& objects);
     void spread(const Arrival& arrival, const RoomTexels& room, const Coverage& coverage);

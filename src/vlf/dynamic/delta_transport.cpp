@@ -10,8 +10,9 @@ namespace vlf {
 namespace {
 
 constexpr std::size_t kLinesPerBlock = 32;
-constexpr float kContact = 4;  // ray epsilons: nearer than this a surface is covered
-constexpr float kEnough = 12;  // lines to a texel, block or group
+constexpr float kContact = 4;     // ray epsilons: nearer than this a surface is covered
+constexpr float kEnough = 12;     // lines to a texel, block or group
+constexpr float kNoise = 0.002f;  // of its irradiance
 
 /// What one end of each line of a block sees of the room.
 struct Views {
@@ -136,7 +137,7 @@ class DeltaLines::Block {
                              const Vec3& throughput) {
             const bool covered = !inMirror && distance < s_.length[i] + epsilon_;
             if (covered || seen.hidden[i] < distance) return;
-            const Unit unit = unitAt(texel, distance);
+            const Unit unit = unitAt(texel, distance, s_.weight[i]);
             const float area = areaOf(unit, texel);
             if (area > 0)
                 ends.push_back({unit, numberOf(unit, texel), objectEnds[first_ + i].receiver,
@@ -150,13 +151,17 @@ class DeltaLines::Block {
                 add(sight.ray, sight.texel, sight.distance, sight.inMirror, sight.throughput);
     }
 
-    /// The smallest that some lines reach: of n lines a steradian n a / d².
-    Unit unitAt(std::uint32_t texel, float distance) const {
-        const auto ends = static_cast<float>(2 * lines_.entries.size());
-        const float reached = kEnough * 4 * kPi * distance * distance / ends;  // m²
+    /// The smallest that enough lines reach, of n a steradian n a / d², for their noise to be
+    /// slight: n a / d² of them, each of irradiance w L / a beside π L. But not wider than half of
+    /// the way to it.
+    Unit unitAt(std::uint32_t texel, float distance, float weight) const {
+        const float squared = distance * distance;
+        const float perArea = static_cast<float>(2 * lines_.entries.size()) / (4 * kPi * squared);
+        const float noise = weight / (kPi * kNoise);
+        const float needed = std::max(kEnough / perArea, noise * noise * perArea);  // m²
         const float area = room_.texels.area[texel];
-        if (area >= reached) return Unit::texel;
-        return 16 * area >= reached ? Unit::block : Unit::group;
+        if (area >= needed || 4 * 16 * area > squared) return Unit::texel;
+        return 16 * area >= needed || 4 * 64 * area > squared ? Unit::block : Unit::group;
     }
     std::uint32_t numberOf(Unit unit, std::uint32_t texel) const {
         if (unit == Unit::texel) return texel;

@@ -74,6 +74,10 @@ void LightExchange::setRoomLight(const IrradianceAtlas& atlas) {
         roomRadiance_[t] = texels_.reflectance[t] * atlas.irradiance[t] / kPi;
     radiance_ = roomRadiance_;
     meanIrradiance_ = mean(texels_, atlas);
+    double flux = 0;
+    for (const std::uint32_t t : texels_.unwrap.texels)
+        flux += texels_.area[t] * kPi * maxComponent(roomRadiance_[t]);
+    roomFlux_ = static_cast<float>(flux);
     pointsKnown_ = false;
 }
 
@@ -189,8 +193,8 @@ void LightExchange::changeRoom(bool bouncing) {
     for (const TexelChange& t : shadows_) change_.add(t.texel, t.irradiance);
     for (const Body& body : bodies_) body.light->addChange(change_);
     if (bouncing && !change_.texels().empty())
-        bounce_.find(change_, scene_, roomRays_, texels_, coverage_,
-                     {&instances_, lit_, kNoObject});
+        bounce_.find(change_, scene_, roomRays_, texels_, coverage_, {&instances_, lit_, kNoObject},
+                     roomFlux_);
     bounce_.addTo(change_, kLeastAmbient * luminance(meanIrradiance_));
     for (const TexelChange& t : emitted_) change_.add(t.texel, t.irradiance);
 }

@@ -64,6 +64,7 @@ class LightExchange {
     IrradianceAtlas roomLight_, light_;  ///< without objects and with them
     std::vector<Vec3> roomRadiance_, radiance_;
     Vec3 meanIrradiance_{0};
+    float roomFlux_ = 0;  ///< that the texels send, of the brightest channel, W
     PointLighting points_;
     bool pointsKnown_ = false;
 

@@ -131,7 +131,7 @@ TEST(SameLight, WhateverSettingsCameBefore) {
     constexpr Shading kShadings[] = {Shading::flat, Shading::lights, Shading::gather, Shading::prt};
     constexpr ShadowKind kShadows[] = {ShadowKind::none, ShadowKind::hard, ShadowKind::soft,
                                        ShadowKind::field};
-    for (int step = 0; step < 200; ++step) {
+    for (int step = 0; step < 40; ++step) {
         const auto i = static_cast<std::size_t>(pick(2));
         ObjectSettings settings = moved.object(i).settings;
         settings.shading = kShadings[pick(4)];

@@ -149,9 +149,9 @@ void LinePass::beginInk() {
     glBindVertexArray(noAttributes_.id());
 }
 
-void LinePass::draw(const LineBuffer& lines, const Defines& kind, int object) {
+void LinePass::draw(const LineBuffer& lines, const Defines& kind, const Mat4& place) {
     glUseProgram(shaders_.program("line", kind));
-    if (kind.contains("OBJECT")) glUniform1i(kObjectLocation, object);
+    if (kind.contains("OBJECT")) glUniformMatrix4fv(kPlaceLocation, 1, GL_FALSE, &place[0][0]);
     for (const int unit : {kLineUnit, kRoomDepthUnit}) glBindSampler(static_cast<GLuint>(unit), 0);
     glBindTextureUnit(kLineUnit, lines.texture.id());
     if (!depth_.textures.empty()) glBindTextureUnit(kRoomDepthUnit, depth_.textures[0].id());

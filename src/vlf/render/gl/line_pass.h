@@ -63,8 +63,8 @@ class LinePass {
     void beginDepth();
     void beginInk();  ///< on blank sheets
     /// How `lines` are drawn: plainly, or, by the names of shaders/line.vert, as EDGES, HIDING or
-    /// NORMALS; as OBJECT, in the space of this one of shared::kObjectUnit.
-    void draw(const LineBuffer& lines, const Defines& kind, int object = 0);
+    /// NORMALS; as OBJECT, `place` leads from their space to the world's.
+    void draw(const LineBuffer& lines, const Defines& kind, const Mat4& place = Mat4(1));
     /// Lays the sheets on paper, or on a picture in display-linear colours, in the view's rectangle
     /// of `framebuffer`.
     void finish(GLuint framebuffer, const TextureObject* picture = nullptr);

@@ -46,9 +46,11 @@ void ObjectPass::update(const DynamicRoom& room) {
     lights_.update(objects);
     records_.clear();
     spheres_.clear();
+    places_.clear();
     probeCentres_.clear();
     for (std::size_t i = 0; i < objects.size(); ++i) {
         records_.push_back(recordOf(objects[i], i));
+        places_.push_back(objects[i].pose.matrix());
         spheres_.push_back(sphereOf(objects[i], meshes_.mesh(meshes_.meshOf(i)).geometry.bounds));
     }
     data_.sphere = sphereAround(spheres_);
@@ -142,7 +144,7 @@ Defines ObjectPass::definesOf(const GpuObjectMesh& mesh, const RoomBatch& batch,
     return d;
 }
 
-void ObjectPass::draw(const RenderSettings& settings, bool shadowed) const {
+void ObjectPass::draw(const View& view, const RenderSettings& settings, bool shadowed) const {
     for (std::size_t m = 0; m < meshes_.size(); ++m) {
         const GpuObjectMesh& mesh = meshes_.mesh(m);
         glBindVertexArray(mesh.vertexArray.id());
@@ -150,49 +152,52 @@ void ObjectPass::draw(const RenderSettings& settings, bool shadowed) const {
             const RoomBatch& batch = mesh.geometry.batches[b];
             const Material& material = mesh.mesh->scene.materials[batch.material];
             glUseProgram(shaders_.program("object", definesOf(mesh, batch, settings, shadowed)));
-            (batch.cull ? glEnable : glDisable)(GL_CULL_FACE);
             mesh.textures.bind(kDiffuseUnit, material.diffuseTexture);
             mesh.textures.bind(kEmissionUnit, material.emissionTexture);
             mesh.textures.bind(kMirrorMapUnit, material.mirrorTexture);
             glBindBufferBase(GL_UNIFORM_BUFFER, kMaterialBlock, mesh.materials[b].id());
-            drawEach(m, batch.firstIndex, batch.indexCount);
+            drawEach(m, batch, view);
         }
     }
 }
 
-/// A range of a mesh's indices for each of its objects.
-void ObjectPass::drawEach(std::size_t mesh, std::size_t first, std::size_t count) const {
+/// A batch of a mesh for each of its objects.
+void ObjectPass::drawEach(std::size_t mesh, const RoomBatch& batch, const View& view) const {
+    const bool closed = meshes_.mesh(mesh).mesh->closed;
     for (std::size_t i = 0; i < count_; ++i) {
         if (meshes_.meshOf(i) != mesh) continue;
-        glUniform1i(kObjectLocation, static_cast<GLint>(i));
-        glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(count), GL_UNSIGNED_INT,
-                       reinterpret_cast<const void*>(4 * first));
+        // The inside of a solid is black, but it is seen from within alone.
+        const bool outside = glm::distance(view.eye, Vec3(spheres_[i])) > 1.1f * spheres_[i].w;
+        (batch.cull || (closed && outside) ? glEnable : glDisable)(GL_CULL_FACE);
+        const ObjectLights::Place& light = lights_.place(i);
+        glUniform4i(kLightLocation, static_cast<GLint>(light.x), static_cast<GLint>(light.y),
+                    static_cast<GLint>(light.firstVertex), static_cast<GLint>(i));
+        glUniformMatrix4fv(kPlaceLocation, 1, GL_FALSE, &places_[i][0][0]);
+        glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(batch.indexCount), GL_UNSIGNED_INT,
+                       reinterpret_cast<const void*>(4 * std::size_t{batch.firstIndex}));
     }
 }
 
 void ObjectPass::drawTriangles(std::size_t object) const {
     const GpuObjectMesh& mesh = meshes_.mesh(meshes_.meshOf(object));
     glBindVertexArray(mesh.vertexArray.id());
-    glUniform1i(kObjectLocation, static_cast<GLint>(object));
+    glUniformMatrix4fv(kPlaceLocation, 1, GL_FALSE, &places_[object][0][0]);
     glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(mesh.geometry.indices.size()),
                    GL_UNSIGNED_INT, nullptr);
 }
 
 void ObjectPass::drawTriangles() const {
-    glBindTextureUnit(kObjectUnit, recordTexture_.id());
     for (std::size_t i = 0; i < count_; ++i) drawTriangles(i);
 }
 
 void ObjectPass::drawLines(LinePass& lines, bool normals) const {
-    glBindTextureUnit(kObjectUnit, recordTexture_.id());
     for (std::size_t i = 0; i < count_; ++i) {
         GpuObjectMesh& mesh = meshes_.mesh(meshes_.meshOf(i));
         if (!mesh.edges) mesh.edges = makeEdgeBuffer(meshEdges(mesh.mesh->scene));
-        const int object = static_cast<int>(i);
-        lines.draw(*mesh.edges, {{"EDGES", "1"}, {"HIDING", "1"}, {"OBJECT", "1"}}, object);
+        lines.draw(*mesh.edges, {{"EDGES", "1"}, {"HIDING", "1"}, {"OBJECT", "1"}}, places_[i]);
         if (!normals) continue;
         if (!mesh.normals) mesh.normals = makeLineBuffer(normalLines(mesh.mesh->scene));
-        lines.draw(*mesh.normals, {{"HIDING", "1"}, {"NORMALS", "1"}, {"OBJECT", "1"}}, object);
+        lines.draw(*mesh.normals, {{"HIDING", "1"}, {"NORMALS", "1"}, {"OBJECT", "1"}}, places_[i]);
     }
 }
 

@@ -41,7 +41,7 @@ class ObjectPass {
     void bind() const;
 
     /// In mode field or raytraced. `shadowed`: the room has hard shadows.
-    void draw(const RenderSettings& settings, bool shadowed) const;
+    void draw(const View& view, const RenderSettings& settings, bool shadowed) const;
 
     /// Triangles alone, of one object or all, with a program in use that has OBJECT, see
     /// object_place.glsl.
@@ -59,7 +59,7 @@ class ObjectPass {
     Record recordOf(const LitObject& object, std::size_t number);
     void placeBody(Record& record, std::size_t number) const;
     void loadRecords();
-    void drawEach(std::size_t mesh, std::size_t first, std::size_t count) const;
+    void drawEach(std::size_t mesh, const RoomBatch& batch, const View& view) const;
     Defines definesOf(const GpuObjectMesh& mesh, const RoomBatch& batch,
                       const RenderSettings& settings, bool shadowed) const;
 
@@ -68,6 +68,7 @@ class ObjectPass {
     ObjectMeshes meshes_;
     ObjectLights lights_;
     std::vector<Record> records_;
+    std::vector<Mat4> places_;
     std::vector<Vec4> spheres_;
     Buffer recordBuffer_, dataBuffer_;
     TextureObject recordTexture_;

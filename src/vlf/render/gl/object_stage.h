@@ -34,7 +34,9 @@ class ObjectStage {
     const ObjectPass& objects() const { return objects_; }
 
     /// Draws the objects in mode field or raytraced.
-    void draw(const RenderSettings& settings) const { objects_.draw(settings, !shadows_.empty()); }
+    void draw(const View& view, const RenderSettings& settings) const {
+        objects_.draw(view, settings, !shadows_.empty());
+    }
 
     /// hits() has a room now.
     void hitsReloaded() { objects_.hitsReloaded(); }

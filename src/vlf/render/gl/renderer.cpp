@@ -204,7 +204,7 @@ struct Renderer::Impl {
         prepare(view, framebuffer);
         if (!objects.empty()) {
             objects.bind();
-            objects.draw(settings);
+            objects.draw(view, settings);
         }
         glBindVertexArray(vertexArray.id());
         for (std::size_t i = 0; i < batches.size(); ++i)

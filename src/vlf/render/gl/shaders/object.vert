@@ -20,6 +20,7 @@ out vec3 normal;
 out vec2 uv;
 
 layout(binding = kVertexLightUnit) uniform samplerBuffer vertexLight;
+layout(location = kLightLocation) uniform ivec4 light;
 #include "object_place.glsl"
 
 void main() {
@@ -27,11 +28,9 @@ void main() {
     gl_Position = view.clipFromWorld * vec4(world, 1);
     uv = uvIn;
 #ifdef BY_TEXEL
-    uvec4 light = texelFetch(objectRecords, kGridTexels + kObjectTexels * object + 6);
     atlasTexel = vec2(light.xy) + atlasTexelIn;
 #else
-    uint first = texelFetch(objectRecords, kGridTexels + kObjectTexels * object + 5).w;
-    vertexIrradiance = texelFetch(vertexLight, int(first + lightIn)).rgb;
+    vertexIrradiance = texelFetch(vertexLight, light.z + int(lightIn)).rgb;
 #endif
 #ifdef MIRROR
     position = world;

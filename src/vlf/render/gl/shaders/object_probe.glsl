@@ -2,10 +2,10 @@
 #include "probed_path.glsl"
 #include "object_mirror.glsl"
 
-layout(location = kObjectLocation) uniform int object;
+layout(location = kLightLocation) uniform ivec4 light;
 
 vec3 mirrorRadiance() {
     ObjectMirror m = objectMirror();
-    return probedRadiance(object,
+    return probedRadiance(light.w,
                           TracedPath(position + view.eye.w * m.side, m.direction, vec3(1)));
 }

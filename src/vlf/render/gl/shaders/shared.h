@@ -50,9 +50,10 @@ VLF_INT kMaterialBlock = 1;
 VLF_INT kObjectsBlock = 4;
 VLF_INT kShadowBlock = 5;
 
-// Uniforms of object.vert and of line drawings of objects.
-VLF_INT kObjectLocation = 0;  // the number of the object
-VLF_INT kOpacityLocation = 1;  // of shadow.frag
+// Uniforms of shaders of objects.
+VLF_INT kPlaceLocation = 0;    // from the object's space to the world's
+VLF_INT kLightLocation = 1;    // place in the atlas; first irradiance by vertex; the object's number
+VLF_INT kOpacityLocation = 2;  // of shadow.frag
 
 // Texels of an object in kObjectUnit; floats are held by their bits.
 //     three rows of the matrix from its space to the world's
