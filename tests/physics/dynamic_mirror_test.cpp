@@ -37,8 +37,8 @@ class BeforeAMirror : public testing::Test {
         return baked;
     }
 
-    static DynamicObject body(const Vec3& diffuse, float side, const Vec3& emission = Vec3(0)) {
-        DynamicObject object = bodyAt("cube", {side * 0.5f, 0.4f, 0.9f}, 0.4f, diffuse, emission);
+    static DynamicObject body(const Vec3& diffuse, float side) {
+        DynamicObject object = bodyAt("cube", {side * 0.5f, 0.4f, 0.9f}, 0.4f, diffuse);
         object.settings.gather.lines = 513;
         return object;
     }
@@ -84,13 +84,6 @@ TEST_F(BeforeAMirror, AnObjectTakesAndGivesAsWithItsImage) {
     const FilledRoom one(mirrored(), {body(grey, 1)});
     const FilledRoom two(doubled(), {body(grey, 1), body(grey, -1)});
     expectSameFaces(one, two, 0.03);
-    EXPECT_LT(changeDifference(one, two), 0.15);
-}
-
-TEST_F(BeforeAMirror, ALampShinesAsWithItsImage) {
-    const Vec3 bright(10);
-    const FilledRoom one(mirrored(), {body(Vec3(0), 1, bright)});
-    const FilledRoom two(doubled(), {body(Vec3(0), 1, bright), body(Vec3(0), -1, bright)});
     EXPECT_LT(changeDifference(one, two), 0.15);
 }
 
