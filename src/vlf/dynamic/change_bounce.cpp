@@ -47,6 +47,7 @@ void ChangeBounce::aim(const RoomChange& change, const Scene& scene, float epsil
     double passed = 0.5 * portion;
     for (std::size_t i = 0; i < flux_.size(); ++i) {
         const Vec3& flux = flux_[i];
+        if (flux == Vec3(0)) continue;
         passed += size(flux);
         const auto count = static_cast<int>(passed / portion);
         if (count == 0) continue;

@@ -47,8 +47,7 @@ void RoomChange::findRadiance(const IrradianceAtlas& own, std::vector<Vec3>& rad
     inBlocks(texels.size(), [&](std::size_t first, std::size_t end) {
         for (std::size_t i = first; i < end; ++i) {
             const std::uint32_t t = texels[i];
-            radiance[t] =
-                room_.reflectance[t] * glm::max(Vec3(0), own.irradiance[t] + changeOf(t)) / kPi;
+            radiance[t] = room_.reflectance[t] * glm::max(Vec3(0), own.irradiance[t] + of(t)) / kPi;
         }
     });
 }
@@ -60,12 +59,12 @@ void RoomChange::apply(const IrradianceAtlas& own, IrradianceAtlas& light) {
     inBlocks(texels.size(), [&](std::size_t first, std::size_t end) {
         for (std::size_t i = first; i < end; ++i)
             light.irradiance[texels[i]] =
-                glm::max(Vec3(0), own.irradiance[texels[i]] + changeOf(texels[i]));
+                glm::max(Vec3(0), own.irradiance[texels[i]] + of(texels[i]));
     });
     inBlocks(followers_.size(), [&](std::size_t first, std::size_t end) {
         for (std::size_t i = first; i < end; ++i) {
             const auto [texel, source] = followers_[i];
-            light.irradiance[texel] = glm::max(Vec3(0), own.irradiance[texel] + changeOf(source));
+            light.irradiance[texel] = glm::max(Vec3(0), own.irradiance[texel] + of(source));
         }
     });
 }

@@ -40,9 +40,14 @@ class RoomChange {
         everywhere_ = true;
     }
 
-    /// The texels that were added to one by one, and how much, by atlas texel.
-    std::span<const std::uint32_t> texels() const { return texels_; }
-    const Vec3& of(std::uint32_t texel) const { return change_[texel]; }
+    /// All texels that may have changed, and how much, by atlas texel.
+    std::span<const std::uint32_t> texels() const {
+        return everywhere_ ? std::span<const std::uint32_t>(room_.unwrap.texels) : texels_;
+    }
+    Vec3 of(std::uint32_t texel) const {
+        const std::uint32_t block = room_.blockOf[texel];
+        return change_[texel] + blocks_[block] + groups_[block / 4] + all_;
+    }
 
     /// The radiance that the texels reflect with the change, by atlas texel.
     void findRadiance(const IrradianceAtlas& own, std::vector<Vec3>& radiance) const;
@@ -54,10 +59,6 @@ class RoomChange {
 
   private:
     bool empty() const { return texels_.empty() && !everywhere_; }
-    Vec3 changeOf(std::uint32_t texel) const {
-        const std::uint32_t block = room_.blockOf[texel];
-        return change_[texel] + blocks_[block] + groups_[block / 4] + all_;
-    }
 
     const RoomTexels& room_;
     std::vector<Vec3> change_;

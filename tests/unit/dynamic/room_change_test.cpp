@@ -67,16 +67,22 @@ TEST_F(ChangedRoom, IsItsOwnAgainWhereNothingChangesAnyMore) {
     EXPECT_EQ(radiance, before);
 }
 
-TEST_F(ChangedRoom, AddsUpChangesOfTexelsGroupsAndAll) {
+TEST_F(ChangedRoom, AddsUpChangesOfTexelsBlocksGroupsAndAll) {
     const std::uint32_t t = texels.unwrap.texels[5];
-    change.addToAll(Vec3(0.5f));
-    change.addToGroup(texels.groupOf[t], Vec3(0.25f));
     change.add(t, Vec3(2));
+    EXPECT_EQ(change.texels().size(), 1u);
+    change.addToAll(Vec3(0.5f));
+    EXPECT_EQ(change.texels().size(), texels.unwrap.texels.size());
+    change.addToBlock(texels.blockOf[t], Vec3(0.125f));
+    change.addToGroup(texels.groupOf[t], Vec3(0.25f));
     apply();
     for (const std::uint32_t other : texels.unwrap.texels) {
         const bool inGroup = texels.groupOf[other] == texels.groupOf[t];
-        EXPECT_EQ(light.irradiance[other],
-                  Vec3(2.5f + (inGroup ? 0.25f : 0) + (other == t ? 2.0f : 0)));
+        const bool inBlock = texels.blockOf[other] == texels.blockOf[t];
+        const Vec3 by(0.5f + (inGroup ? 0.25f : 0) + (inBlock ? 0.125f : 0) +
+                      (other == t ? 2.0f : 0));
+        EXPECT_EQ(change.of(other), by);
+        EXPECT_EQ(light.irradiance[other], Vec3(2) + by);
     }
     change.clear();
     apply();
