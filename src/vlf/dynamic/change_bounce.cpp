@@ -13,8 +13,8 @@ namespace vlf {
 namespace {
 
 constexpr std::size_t kRaysPerBlock = 256;
-constexpr double kPortion = 6e-8;  // of the room's flux, that a ray carries
-constexpr double kFewestRays = 1024, kMostRays = 16384;
+constexpr double kPortion = 2.5e-8;  // of the room's flux, that a ray carries
+constexpr double kFewestRays = 1024, kMostRays = 32768;
 /// From this far on, in radii of a group, what arrives at one of its texels counts for them all:
 /// few rays would make single far texels flicker.
 constexpr float kFar = 5;
