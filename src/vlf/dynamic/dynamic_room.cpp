@@ -73,7 +73,8 @@ struct DynamicRoom::Impl {
         for (Entry& entry : entries)
             if (entry.object.visible && std::exchange(entry.unprepared, false))
                 entry.light->prepare(entry.object, plans,
-                                     std::min(field.record.directions, kMaxLines), cell);
+                                     std::min(field.record.directions, kMaxLines), cell,
+                                     exchange.texels().unwrap.texelSize);
     }
 
     /// Which objects have changed, or have one near by that has.

@@ -10,15 +10,29 @@ namespace vlf {
 namespace {
 
 constexpr std::size_t kReceiversPerBlock = 16;
-constexpr float kCacheCell = 0.05f;                // of the object's diameter
-constexpr float kTurnedAway = -0.1f;               // cosine: its neighbours may be seen
+constexpr float kCacheCell = 0.05f;   // of the object's diameter
+constexpr float kTurnedAway = -0.1f;  // cosine: its neighbours may be seen
+constexpr int kFewestTexels = 200, kMostTexels = 6400;
 constexpr float kLeastCells = 6, kMostCells = 64;  // over an object's diameter
+
+/// Half as wide as the room's, a few hundred at least, in steps, so that an object that is scaled
+/// little keeps them.
+int texelsOf(const DynamicObject& object, float roomTexel) {
+    const Scene& scene = object.model->scene();
+    float surface = 0;
+    for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) surface += area(scene, t);
+    const float scale = object.pose.scale / (0.5f * roomTexel);
+    int texels = kFewestTexels;
+    while (texels < kMostTexels && static_cast<float>(texels) < surface * scale * scale)
+        texels *= 2;
+    return texels;
+}
 
 }  // namespace
 
 void ObjectLight::prepare(const DynamicObject& object, ObjectPlans& plans, int lines,
-                          float roomCell) {
-    plan_ = plans.plan(object);
+                          float roomCell, float roomTexel) {
+    plan_ = plans.plan(object, texelsOf(object, roomTexel));
     const float diameter = 2 * object.model->bounds().radius;
     const float cell =
         std::clamp(roomCell / object.pose.scale, diameter / kMostCells, diameter / kLeastCells);

@@ -30,8 +30,10 @@ struct Surroundings {
 
 class ObjectLight {
   public:
-    /// Makes ready what the object's settings ask for. `roomCell`: width of a cell of the field, m.
-    void prepare(const DynamicObject& object, ObjectPlans& plans, int lines, float roomCell);
+    /// Makes ready what the object's settings ask for. `roomCell`: width of a cell of the
+    /// field, `roomTexel`: of its texels, m.
+    void prepare(const DynamicObject& object, ObjectPlans& plans, int lines, float roomCell,
+                 float roomTexel);
 
     const LitObject& lit() const { return lit_; }
 

@@ -17,14 +17,14 @@ std::shared_ptr<const Plan> find(std::vector<std::weak_ptr<const Plan>>& plans, 
 
 }  // namespace
 
-std::shared_ptr<const ObjectPlan> ObjectPlans::plan(const DynamicObject& object) {
+std::shared_ptr<const ObjectPlan> ObjectPlans::plan(const DynamicObject& object, int texels) {
     const Shading shading = object.settings.shading;
     GatherSettings settings = object.settings.gather;
     if (shading != Shading::gather) settings.points = GatherPoints::vertices;
     const PrtSettings& prt = object.settings.prt;
     const auto found = find(plans_, [&](const ObjectPlan& p) {
         return p.model == object.model && p.shading == shading && p.settings == settings &&
-               p.prt == prt;
+               p.prt == prt && p.texels == texels;
     });
     if (found) return found;
     auto plan = std::make_shared<ObjectPlan>();
@@ -32,7 +32,8 @@ std::shared_ptr<const ObjectPlan> ObjectPlans::plan(const DynamicObject& object)
     plan->shading = shading;
     plan->settings = settings;
     plan->prt = prt;
-    plan->receivers = makeReceivers(*object.model, settings);
+    plan->texels = texels;
+    plan->receivers = makeReceivers(*object.model, settings, texels);
     if (shading == Shading::gather)
         plan->gather = makeGatherPlan(*plan->receivers, object.model->bounds(),
                                       {settings.lines, settings.step});

@@ -18,6 +18,7 @@ struct ObjectPlan {
     Shading shading = Shading::flat;
     GatherSettings settings;
     PrtSettings prt;
+    int texels = 0;
     std::unique_ptr<const ObjectReceivers> receivers;  ///< texels for `gather` only
     GatherPlan gather;                                 ///< of that shading
     std::shared_ptr<const PrtTransfer> transfer;       ///< of shading `prt`
@@ -33,7 +34,8 @@ struct LinesPlan {
 /// Keeps plans for as long as an object uses them.
 class ObjectPlans {
   public:
-    std::shared_ptr<const ObjectPlan> plan(const DynamicObject& object);
+    /// Of texels of no given size there are about `texels`.
+    std::shared_ptr<const ObjectPlan> plan(const DynamicObject& object, int texels);
     std::shared_ptr<const LinesPlan> linesPlan(const std::shared_ptr<const ObjectPlan>& plan,
                                                int lines, float cell);
 

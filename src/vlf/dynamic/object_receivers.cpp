@@ -8,8 +8,6 @@ namespace vlf {
 
 namespace {
 
-constexpr double kTexelBudget = 200;
-
 Vec3 meanReflectance(const Scene& scene, std::span<const SurfacePoint> points) {
     Vec3 sum(0);
     for (const SurfacePoint& p : points)
@@ -96,10 +94,10 @@ void addTexel(const ObjectMesh& mesh, std::size_t i, ObjectReceivers& out) {
     out.light.push_back(light);
 }
 
-void addTexels(const ObjectMesh& mesh, float texelSize, ObjectReceivers& out) {
+void addTexels(const ObjectMesh& mesh, float texelSize, int budget, ObjectReceivers& out) {
     UnwrapParams params;
     params.texelSize = texelSize;
-    params.texelBudget = kTexelBudget;
+    params.texelBudget = budget;
     params.sides = OpenSides{true, !mesh.closed};
     out.unwrap = std::make_unique<const Unwrap>(unwrap(mesh.scene, mesh.rays, params));
     const Unwrap& unwrap = *out.unwrap;
@@ -134,12 +132,12 @@ std::uint32_t ObjectReceivers::at(std::uint32_t triangle, const Vec2& b, bool fr
 }
 
 std::unique_ptr<const ObjectReceivers> makeReceivers(const ObjectModel& model,
-                                                     const GatherSettings& settings) {
+                                                     const GatherSettings& settings, int budget) {
     auto receivers = std::make_unique<ObjectReceivers>();
     const bool texels = settings.points == GatherPoints::texels;
     receivers->mesh = &model.mesh(texels ? 0 : settings.subdivision);
     if (texels)
-        addTexels(*receivers->mesh, settings.texelSize, *receivers);
+        addTexels(*receivers->mesh, settings.texelSize, budget, *receivers);
     else
         addVertices(*receivers->mesh, *receivers);
     for (const LightReceiver& light : receivers->light)

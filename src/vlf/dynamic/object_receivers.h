@@ -35,9 +35,10 @@ struct ObjectReceivers {
     std::uint32_t at(std::uint32_t triangle, const Vec2& barycentric, bool front) const;
 };
 
-/// Vertices of mesh(settings.subdivision), or texels. Of texels of no given size there are about
-/// 200. `model` must outlive them. Throws InputError as unwrap does.
+/// Vertices of mesh(settings.subdivision), or texels, about `texels` if no size is given. `model`
+/// must outlive them. Throws InputError as unwrap does.
 std::unique_ptr<const ObjectReceivers> makeReceivers(const ObjectModel& model,
-                                                     const GatherSettings& settings);
+                                                     const GatherSettings& settings,
+                                                     int texels = 200);
 
 }  // namespace vlf

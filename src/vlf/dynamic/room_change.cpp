@@ -42,12 +42,43 @@ void RoomChange::clear() {
     everywhere_ = false;
 }
 
-void RoomChange::findRadiance(const IrradianceAtlas& own, std::vector<Vec3>& radiance) const {
+void RoomChange::findCorners() {
+    if (!everywhere_) return;
+    const auto find = [](const TexelLattice& lattice, const std::vector<Vec3>& cells,
+                         Corners& corners) {
+        corners.resize(cells.size());
+        for (std::size_t c = 0; c < cells.size(); ++c)
+            for (std::size_t k = 0; k < 4; ++k) {
+                const auto& [a, b, d, e] = lattice.around[c][k];
+                corners[c][k] = 0.25f * (cells[a] + cells[b] + cells[d] + cells[e]);
+            }
+    };
+    find(room_.blockLattice, blocks_, blockCorners_);
+    find(room_.groupLattice, groups_, groupCorners_);
+}
+
+Vec3 RoomChange::smoothChangeOf(std::uint32_t texel) const {
+    if (!everywhere_) return change_[texel];
+    const auto between = [](const std::array<Vec3, 4>& corner, float u, float v) {
+        return (1 - v) * ((1 - u) * corner[0] + u * corner[1]) +
+               v * ((1 - u) * corner[2] + u * corner[3]);
+    };
+    constexpr int kSide = RoomTexels::kGroupSide, kHalf = kSide / 2;
+    const int u = room_.placeOf[texel] & 7, v = room_.placeOf[texel] >> 3;
+    const std::uint32_t block = room_.blockOf[texel];
+    return change_[texel] + all_ +
+           between(groupCorners_[block / 4], (u + 0.5f) / kSide, (v + 0.5f) / kSide) +
+           between(blockCorners_[block], (u % kHalf + 0.5f) / kHalf, (v % kHalf + 0.5f) / kHalf);
+}
+
+void RoomChange::findRadiance(const IrradianceAtlas& own, std::vector<Vec3>& radiance) {
+    findCorners();
     const std::vector<std::uint32_t>& texels = room_.unwrap.texels;
     inBlocks(texels.size(), [&](std::size_t first, std::size_t end) {
         for (std::size_t i = first; i < end; ++i) {
             const std::uint32_t t = texels[i];
-            radiance[t] = room_.reflectance[t] * glm::max(Vec3(0), own.irradiance[t] + of(t)) / kPi;
+            radiance[t] = room_.reflectance[t] *
+                          glm::max(Vec3(0), own.irradiance[t] + smoothChangeOf(t)) / kPi;
         }
     });
 }
@@ -55,16 +86,18 @@ void RoomChange::findRadiance(const IrradianceAtlas& own, std::vector<Vec3>& rad
 void RoomChange::apply(const IrradianceAtlas& own, IrradianceAtlas& light) {
     if (empty() && !written_) return;
     written_ = !empty();
+    findCorners();
     const std::vector<std::uint32_t>& texels = room_.unwrap.texels;
     inBlocks(texels.size(), [&](std::size_t first, std::size_t end) {
         for (std::size_t i = first; i < end; ++i)
             light.irradiance[texels[i]] =
-                glm::max(Vec3(0), own.irradiance[texels[i]] + of(texels[i]));
+                glm::max(Vec3(0), own.irradiance[texels[i]] + smoothChangeOf(texels[i]));
     });
     inBlocks(followers_.size(), [&](std::size_t first, std::size_t end) {
         for (std::size_t i = first; i < end; ++i) {
             const auto [texel, source] = followers_[i];
-            light.irradiance[texel] = glm::max(Vec3(0), own.irradiance[texel] + of(source));
+            light.irradiance[texel] =
+                glm::max(Vec3(0), own.irradiance[texel] + smoothChangeOf(source));
         }
     });
 }

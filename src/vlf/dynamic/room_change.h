@@ -4,6 +4,7 @@
 #include "vlf/dynamic/room_texels.h"
 #include "vlf/field/irradiance_atlas.h"
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <utility>
@@ -40,7 +41,7 @@ class RoomChange {
         everywhere_ = true;
     }
 
-    /// All texels that may have changed, and how much, by atlas texel.
+    /// All texels that may have changed, and how much, by atlas texel; even over blocks and groups.
     std::span<const std::uint32_t> texels() const {
         return everywhere_ ? std::span<const std::uint32_t>(room_.unwrap.texels) : texels_;
     }
@@ -49,8 +50,9 @@ class RoomChange {
         return change_[texel] + blocks_[block] + groups_[block / 4] + all_;
     }
 
-    /// The radiance that the texels reflect with the change, by atlas texel.
-    void findRadiance(const IrradianceAtlas& own, std::vector<Vec3>& radiance) const;
+    /// The radiance that the texels reflect with the change, by atlas texel. Here and below the
+    /// change of blocks and groups is interpolated between them.
+    void findRadiance(const IrradianceAtlas& own, std::vector<Vec3>& radiance);
 
     /// `own` with the change; texels that no surface covers change with the covered ones that they
     /// continue. Light does not become negative. `light` must be what the call before wrote, or
@@ -58,13 +60,18 @@ class RoomChange {
     void apply(const IrradianceAtlas& own, IrradianceAtlas& light);
 
   private:
+    using Corners = std::vector<std::array<Vec3, 4>>;
+
     bool empty() const { return texels_.empty() && !everywhere_; }
+    void findCorners();
+    Vec3 smoothChangeOf(std::uint32_t texel) const;
 
     const RoomTexels& room_;
     std::vector<Vec3> change_;
     std::vector<std::uint8_t> touched_;
     std::vector<std::uint32_t> texels_;
     std::vector<Vec3> blocks_, groups_;
+    Corners blockCorners_, groupCorners_;
     Vec3 all_{0};
     bool everywhere_ = false;
     bool written_ = false;  ///< the last call of apply changed something

@@ -5,6 +5,8 @@
 #include "vlf/dynamic/spread_texels.h"
 
 #include <algorithm>
+#include <map>
+#include <tuple>
 #include <utility>
 
 namespace vlf {
@@ -19,6 +21,24 @@ Vec3 meanReflectance(const Scene& scene, std::span<const SurfacePoint> points) {
     for (const SurfacePoint& p : points)
         sum += diffuseReflectance(scene, material, uvAt(scene, p.triangle, p.barycentric));
     return sum / static_cast<float>(points.size());
+}
+
+using CellPlace = std::tuple<std::uint32_t, int, int>;  ///< chart, place along u and v
+
+TexelLattice makeLattice(const std::map<CellPlace, std::uint32_t>& cells, std::size_t count) {
+    TexelLattice lattice;
+    lattice.around.resize(count);
+    for (const auto& [place, cell] : cells) {
+        const auto& [chart, u, v] = place;
+        for (int corner = 0; corner < 4; ++corner)
+            for (int k = 0; k < 4; ++k) {
+                const CellPlace beside{chart, u - 1 + (corner & 1) + (k & 1),
+                                       v - 1 + (corner >> 1) + (k >> 1)};
+                const auto found = cells.find(beside);
+                lattice.around[cell][corner][k] = found == cells.end() ? cell : found->second;
+            }
+    }
+    return lattice;
 }
 
 /// Squares of RoomTexels::kGroupSide² texels of a chart.
@@ -56,6 +76,8 @@ void groupTexels(const Scene& scene, RoomTexels& room) {
     // A quarter of a group has the group's number times four and its place in it.
     room.blockArea.assign(4 * room.groups.size(), 0);
     constexpr std::uint32_t kHalf = RoomTexels::kGroupSide / 2;
+    room.placeOf.assign(unwrap.atlasSize(), 0);
+    std::map<CellPlace, std::uint32_t> groups, blocks;
     for (std::uint32_t i = 0; i < unwrap.texels.size(); ++i) {
         const std::uint32_t texel = unwrap.texels[i];
         const Chart& chart = unwrap.charts[unwrap.texelChart[i]];
@@ -63,7 +85,14 @@ void groupTexels(const Scene& scene, RoomTexels& room) {
         const std::uint32_t y = texel / unwrap.atlasWidth - chart.y;
         room.blockOf[texel] = 4 * room.groupOf[texel] + y / kHalf % 2 * 2 + x / kHalf % 2;
         room.blockArea[room.blockOf[texel]] += room.area[texel];
+        constexpr std::uint32_t kSide = RoomTexels::kGroupSide;
+        room.placeOf[texel] = static_cast<std::uint8_t>(x % kSide | y % kSide << 3);
+        const std::uint32_t c = unwrap.texelChart[i];
+        groups.try_emplace(CellPlace(c, x / kSide, y / kSide), room.groupOf[texel]);
+        blocks.try_emplace(CellPlace(c, x / kHalf, y / kHalf), room.blockOf[texel]);
     }
+    room.groupLattice = makeLattice(groups, room.groups.size());
+    room.blockLattice = makeLattice(blocks, room.blockArea.size());
 }
 
 }  // namespace

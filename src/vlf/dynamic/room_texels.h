@@ -7,12 +7,19 @@
 #include "vlf/trace/ray_scene.h"
 #include "vlf/unwrap/unwrap.h"
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
 namespace vlf {
 
 inline constexpr std::uint32_t kNoTexel = 0xffffffffu;
+/// Squares of a chart's texels and those beside them: around[c][k] are the four cells about corner
+/// k of cell c (k's bits: the far side along u, along v), c in place of those that are not there.
+struct TexelLattice {
+    std::vector<std::array<std::array<std::uint32_t, 4>, 4>> around;
+};
+
 inline constexpr std::uint32_t kNoLight = 0xffffffffu;
 
 /// A triangle of the room as rays meet it.
@@ -48,6 +55,9 @@ struct RoomTexels {
     std::vector<std::uint32_t> groupOf;  ///< of covered texels
     std::vector<std::uint32_t> blockOf;  ///< likewise: quarters of groups
     std::vector<float> blockArea;        ///< m²
+    std::vector<std::uint8_t>
+        placeOf;  ///< of covered texels in their group: u, v in three bits each
+    TexelLattice groupLattice, blockLattice;
     Vec3 meanReflectance{0};             ///< diffuse, over all area
     float totalArea = 0;                 ///< m²
     std::vector<std::uint32_t> entryOf;  ///< of unwrap.texels, of covered texels
