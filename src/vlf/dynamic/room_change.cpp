@@ -49,8 +49,11 @@ void RoomChange::findCorners() {
         corners.resize(cells.size());
         for (std::size_t c = 0; c < cells.size(); ++c)
             for (std::size_t k = 0; k < 4; ++k) {
-                const auto& [a, b, d, e] = lattice.around[c][k];
-                corners[c][k] = 0.25f * (cells[a] + cells[b] + cells[d] + cells[e]);
+                Vec3 sum(0);
+                float count = 0;
+                for (const std::uint32_t cell : lattice.around[c][k])
+                    if (cell != TexelLattice::kNone) sum += cells[cell], ++count;
+                corners[c][k] = sum / count;
             }
     };
     find(room_.blockLattice, blocks_, blockCorners_);

@@ -35,7 +35,8 @@ TexelLattice makeLattice(const std::map<CellPlace, std::uint32_t>& cells, std::s
                 const CellPlace beside{chart, u - 1 + (corner & 1) + (k & 1),
                                        v - 1 + (corner >> 1) + (k >> 1)};
                 const auto found = cells.find(beside);
-                lattice.around[cell][corner][k] = found == cells.end() ? cell : found->second;
+                lattice.around[cell][corner][k] =
+                    found == cells.end() ? TexelLattice::kNone : found->second;
             }
     }
     return lattice;
