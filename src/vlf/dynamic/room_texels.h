@@ -15,8 +15,10 @@ namespace vlf {
 
 inline constexpr std::uint32_t kNoTexel = 0xffffffffu;
 /// Squares of a chart's texels and those beside them: around[c][k] are the four cells about corner
-/// k of cell c (k's bits: the far side along u, along v), c in place of those that are not there.
+/// k of cell c (k's bits: the far side along u, along v), kNone where there is none.
 struct TexelLattice {
+    static constexpr std::uint32_t kNone = 0xffffffffu;
+
     std::vector<std::array<std::array<std::uint32_t, 4>, 4>> around;
 };
 
