@@ -14,6 +14,7 @@
 namespace vlf {
 
 inline constexpr std::uint32_t kNoTexel = 0xffffffffu;
+
 /// Squares of a chart's texels and those beside them: around[c][k] are the four cells about corner
 /// k of cell c (k's bits: the far side along u, along v), kNone where there is none.
 struct TexelLattice {
@@ -57,8 +58,7 @@ struct RoomTexels {
     std::vector<std::uint32_t> groupOf;  ///< of covered texels
     std::vector<std::uint32_t> blockOf;  ///< likewise: quarters of groups
     std::vector<float> blockArea;        ///< m²
-    std::vector<std::uint8_t>
-        placeOf;  ///< of covered texels in their group: u, v in three bits each
+    std::vector<std::uint8_t> placeOf;   ///< in the group: three bits of u, three of v
     TexelLattice groupLattice, blockLattice;
     Vec3 meanReflectance{0};             ///< diffuse, over all area
     float totalArea = 0;                 ///< m²
