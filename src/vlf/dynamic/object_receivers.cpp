@@ -8,31 +8,6 @@ namespace vlf {
 
 namespace {
 
-Vec3 meanReflectance(const Scene& scene, std::span<const SurfacePoint> points) {
-    Vec3 sum(0);
-    for (const SurfacePoint& p : points)
-        sum += diffuseReflectance(scene, scene.material(p.triangle),
-                                  uvAt(scene, p.triangle, p.barycentric));
-    return sum / static_cast<float>(points.size());
-}
-
-/// A receiver of direct light at one vertex of a triangle, or over the points of a texel.
-LightReceiver lightReceiver(const ObjectMesh& mesh, std::span<const SurfacePoint> points,
-                            const Vec3& normal, float side, float radius, std::uint64_t key) {
-    LightReceiver r;
-    r.scene = &mesh.scene;
-    r.points = points;
-    r.normal = normal;
-    r.side = side;
-    r.radius = radius;
-    r.planar = radius == 0;
-    r.key = key;
-    for (const SurfacePoint& p : points)
-        r.centre += positionAt(mesh.scene, p.triangle, p.barycentric);
-    r.centre /= static_cast<float>(points.size());
-    return r;
-}
-
 void addVertices(const ObjectMesh& mesh, ObjectReceivers& out) {
     const Scene& scene = mesh.scene;
     const std::size_t count = scene.positions.size();
@@ -58,9 +33,16 @@ void addVertices(const ObjectMesh& mesh, ObjectReceivers& out) {
         out.normal.push_back(side * normal);
     }
     const std::span<const SurfacePoint> points = out.points.points;
-    for (std::size_t i = 0; i < out.size(); ++i)
-        out.light.push_back(lightReceiver(mesh, points.subspan(i, 1), out.normal[i],
-                                          i < count ? 1.0f : -1.0f, 0, i));
+    for (std::size_t i = 0; i < out.size(); ++i) {
+        LightReceiver light;
+        light.scene = &scene;
+        light.points = points.subspan(i, 1);
+        light.centre = out.position[i];
+        light.normal = out.normal[i];
+        light.side = i < count ? 1.0f : -1.0f;
+        light.key = i;
+        out.light.push_back(light);
+    }
 }
 
 /// Mean position and normals over a texel's points.
@@ -141,7 +123,8 @@ std::unique_ptr<const ObjectReceivers> makeReceivers(const ObjectModel& model,
     else
         addVertices(*receivers->mesh, *receivers);
     for (const LightReceiver& light : receivers->light)
-        receivers->reflectance.push_back(meanReflectance(receivers->mesh->scene, light.points));
+        receivers->reflectance.push_back(
+            meanReflectance(receivers->mesh->scene, light.points).diffuse);
     return receivers;
 }
 

@@ -13,16 +13,6 @@ namespace vlf {
 
 namespace {
 
-/// Mean diffuse reflectance over a texel's points.
-Vec3 meanReflectance(const Scene& scene, std::span<const SurfacePoint> points) {
-    const Material& material = scene.material(points[0].triangle);
-    if (material.diffuseTexture < 0) return material.diffuse;
-    Vec3 sum(0);
-    for (const SurfacePoint& p : points)
-        sum += diffuseReflectance(scene, material, uvAt(scene, p.triangle, p.barycentric));
-    return sum / static_cast<float>(points.size());
-}
-
 using CellPlace = std::tuple<std::uint32_t, int, int>;  ///< chart, place along u and v
 
 TexelLattice makeLattice(const std::map<CellPlace, std::uint32_t>& cells, std::size_t count) {
@@ -124,7 +114,7 @@ RoomTexels makeRoomTexels(const Scene& scene, const RayScene& rays, const LightF
     parallelFor(unwrap.texels.size(), 512, [&](std::size_t i) {
         const std::uint32_t texel = unwrap.texels[i];
         room.source[texel] = texel;
-        room.reflectance[texel] = meanReflectance(scene, unwrap.points.of(i));
+        room.reflectance[texel] = meanReflectance(scene, unwrap.points.of(i)).diffuse;
         room.area[texel] = unwrap.texelArea(i);
         room.entryOf[texel] = static_cast<std::uint32_t>(i);
     });

@@ -47,19 +47,9 @@ void findReflectances(BakeState& state) {
     state.reflectance.resize(u.texels.size());
     state.absorptance.resize(u.texels.size());
     parallelFor(u.texels.size(), 512, [&](std::size_t i) {
-        const auto points = u.points.of(i);
-        const Material& material = state.scene.material(points[0].triangle);
-        const bool textured = material.diffuseTexture >= 0 || material.mirrorTexture >= 0;
-        Vec3 diffuse(0), mirror(0);
-        const auto samples = textured ? points : points.first(1);
-        for (const SurfacePoint& p : samples) {
-            const Vec2 uv = uvAt(state.scene, p.triangle, p.barycentric);
-            diffuse += diffuseReflectance(state.scene, material, uv);
-            mirror += mirrorReflectance(state.scene, material, uv);
-        }
-        const auto n = static_cast<float>(samples.size());
-        state.reflectance[i] = diffuse / n;
-        state.absorptance[i] = glm::max(Vec3(0), Vec3(1) - (diffuse + mirror) / n);
+        const MeanReflectance mean = meanReflectance(state.scene, u.points.of(i));
+        state.reflectance[i] = mean.diffuse;
+        state.absorptance[i] = glm::max(Vec3(0), Vec3(1) - (mean.diffuse + mean.mirror));
     });
 }
 

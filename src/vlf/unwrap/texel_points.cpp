@@ -99,4 +99,18 @@ TexelPoints findTexelPoints(const Scene& scene, const Chart& chart,
     return result;
 }
 
+MeanReflectance meanReflectance(const Scene& scene, std::span<const SurfacePoint> points) {
+    const Material& material = scene.material(points[0].triangle);
+    const bool textured = material.diffuseTexture >= 0 || material.mirrorTexture >= 0;
+    const auto samples = textured ? points : points.first(1);
+    MeanReflectance sum;
+    for (const SurfacePoint& p : samples) {
+        const Vec2 uv = uvAt(scene, p.triangle, p.barycentric);
+        sum.diffuse += diffuseReflectance(scene, material, uv);
+        sum.mirror += mirrorReflectance(scene, material, uv);
+    }
+    const auto n = static_cast<float>(samples.size());
+    return {sum.diffuse / n, sum.mirror / n};
+}
+
 }  // namespace vlf

@@ -36,4 +36,11 @@ struct TexelPoints {
 TexelPoints findTexelPoints(const Scene& scene, const Chart& chart,
                             const std::vector<std::uint32_t>& triangles);
 
+struct MeanReflectance {
+    Vec3 diffuse{0}, mirror{0};
+};
+
+/// Over surface points of one material, textures included.
+MeanReflectance meanReflectance(const Scene& scene, std::span<const SurfacePoint> points);
+
 }  // namespace vlf
