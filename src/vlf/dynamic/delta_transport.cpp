@@ -218,10 +218,4 @@ void DeltaLines::addTo(RoomChange& change, std::span<const Vec3> ownRadiance) co
         }
 }
 
-std::size_t DeltaLines::bytes() const {
-    std::size_t sum = 0;
-    for (const std::vector<End>& block : blocks_) sum += block.capacity() * sizeof(End);
-    return sum;
-}
-
 }  // namespace vlf

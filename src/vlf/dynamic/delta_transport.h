@@ -32,9 +32,6 @@ class DeltaLines {
     /// receiver of the object.
     void addTo(RoomChange& change, std::span<const Vec3> ownRadiance) const;
 
-    void clear() { blocks_.clear(); }
-    std::size_t bytes() const;
-
   private:
     /// What a line's light is dealt to: the farther from the object the more texels, so that single
     /// ones do not flicker as lines pass over them.

@@ -3,8 +3,7 @@
 //   1. place the objects and find what of the room they cover;
 //   2. look about: trace the rays along which objects see the room (gather_plan.h) and the lines
 //      that they cut (delta_transport.h), and sample emitters from their surfaces;
-//   3. take the direct light out of the room that objects block (soft_shadow.h), put in what
-//   objects
+//   3. take the direct light out of the room that objects block (soft_shadow.h), put in what they
 //      emit (object_emitters.h);
 //   4. exchange: object light from the room's, the room's from the objects', what has changed
 //      bouncing on (change_bounce.h), and the objects' once more.

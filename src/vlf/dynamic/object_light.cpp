@@ -88,9 +88,7 @@ bool ObjectLight::misses(const DynamicObject& object, std::span<const Vec3> view
 
 std::unique_ptr<const ObjectEmitters> ObjectLight::emitters(const DynamicObject& object,
                                                             std::uint32_t own) const {
-    if (!object.model->emits()) return nullptr;
-    if (plan_->receivers->areTexels()) return makeEmitters(object, *plan_->receivers->unwrap, own);
-    return makeEmitters(object, *makeReceivers(*object.model, {})->unwrap, own);
+    return plan_->emitting ? makeEmitters(object, *plan_->emitting, own) : nullptr;
 }
 
 void ObjectLight::look(const DynamicObject& object, const Surroundings& around, std::uint32_t own) {

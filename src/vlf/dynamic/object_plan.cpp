@@ -1,6 +1,7 @@
 #include "vlf/dynamic/object_plan.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace vlf {
 
@@ -13,6 +14,12 @@ std::shared_ptr<const Plan> find(std::vector<std::weak_ptr<const Plan>>& plans, 
     for (const auto& weak : plans)
         if (const auto plan = weak.lock(); plan && fits(*plan)) return plan;
     return nullptr;
+}
+
+/// Patches that share rays are no wider than a few texels of the room, by which `texels` are
+/// counted.
+float patchesAcross(int texels) {
+    return std::max(4.0f, 0.12f * std::sqrt(static_cast<float>(texels)));
 }
 
 }  // namespace
@@ -34,9 +41,11 @@ std::shared_ptr<const ObjectPlan> ObjectPlans::plan(const DynamicObject& object,
     plan->prt = prt;
     plan->texels = texels;
     plan->receivers = makeReceivers(*object.model, settings, texels);
+    if (object.model->emits())
+        plan->emitting = std::make_unique<const Unwrap>(unwrapObject(*object.model, 0, texels));
     if (shading == Shading::gather)
         plan->gather = makeGatherPlan(*plan->receivers, object.model->bounds(),
-                                      {settings.lines, settings.step});
+                                      {settings.lines, settings.step, patchesAcross(texels)});
     if (shading == Shading::prt)
         plan->transfer = transfers_.transfer(object.model, settings.subdivision, prt);
     plans_.push_back(plan);

@@ -20,6 +20,7 @@ struct ObjectPlan {
     PrtSettings prt;
     int texels = 0;
     std::unique_ptr<const ObjectReceivers> receivers;  ///< texels for `gather` only
+    std::unique_ptr<const Unwrap> emitting;            ///< charts of a model that emits
     GatherPlan gather;                                 ///< of that shading
     std::shared_ptr<const PrtTransfer> transfer;       ///< of shading `prt`
 };

@@ -76,12 +76,9 @@ void addTexel(const ObjectMesh& mesh, std::size_t i, ObjectReceivers& out) {
     out.light.push_back(light);
 }
 
-void addTexels(const ObjectMesh& mesh, float texelSize, int budget, ObjectReceivers& out) {
-    UnwrapParams params;
-    params.texelSize = texelSize;
-    params.texelBudget = budget;
-    params.sides = OpenSides{true, !mesh.closed};
-    out.unwrap = std::make_unique<const Unwrap>(unwrap(mesh.scene, mesh.rays, params));
+void addTexels(const ObjectModel& model, float texelSize, int budget, ObjectReceivers& out) {
+    const ObjectMesh& mesh = model.mesh();
+    out.unwrap = std::make_unique<const Unwrap>(unwrapObject(model, texelSize, budget));
     const Unwrap& unwrap = *out.unwrap;
     out.texels = {unwrap.charts, unwrap.triangleCharts};
     out.source.assign(unwrap.atlasSize(), ObjectReceivers::kNone);
@@ -113,13 +110,22 @@ std::uint32_t ObjectReceivers::at(std::uint32_t triangle, const Vec2& b, bool fr
     return front ? vertex : vertex + static_cast<std::uint32_t>(mesh->scene.positions.size());
 }
 
+Unwrap unwrapObject(const ObjectModel& model, float texelSize, int texels) {
+    const ObjectMesh& mesh = model.mesh();
+    UnwrapParams params;
+    params.texelSize = texelSize;
+    params.texelBudget = texels;
+    params.sides = OpenSides{true, !mesh.closed};
+    return unwrap(mesh.scene, mesh.rays, params);
+}
+
 std::unique_ptr<const ObjectReceivers> makeReceivers(const ObjectModel& model,
                                                      const GatherSettings& settings, int budget) {
     auto receivers = std::make_unique<ObjectReceivers>();
     const bool texels = settings.points == GatherPoints::texels;
     receivers->mesh = &model.mesh(texels ? 0 : settings.subdivision);
     if (texels)
-        addTexels(*receivers->mesh, settings.texelSize, budget, *receivers);
+        addTexels(model, settings.texelSize, budget, *receivers);
     else
         addVertices(*receivers->mesh, *receivers);
     for (const LightReceiver& light : receivers->light)

@@ -35,6 +35,10 @@ struct ObjectReceivers {
     std::uint32_t at(std::uint32_t triangle, const Vec2& barycentric, bool front) const;
 };
 
+/// Charts and texels of mesh(0), about `texels`, or of the given size (metres) if that is above 0.
+/// Throws InputError as unwrap does.
+Unwrap unwrapObject(const ObjectModel& model, float texelSize, int texels);
+
 /// Vertices of mesh(settings.subdivision), or texels, about `texels` if no size is given. `model`
 /// must outlive them. Throws InputError as unwrap does.
 std::unique_ptr<const ObjectReceivers> makeReceivers(const ObjectModel& model,

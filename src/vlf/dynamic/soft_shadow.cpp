@@ -42,23 +42,17 @@ std::vector<Obstruction> findObstructions(const RoomTexels& room, std::span<cons
         const Light& light = room.sources.lights[image.light];
         Obstruction o;
         o.light = {image.imageFromWorld.point(light.centre), light.radius};
-        for (const Sphere& object : objects) {
-            o.objects.push_back(object);
-            Sphere reflected = object;
-            for (int k = image.depth - 1; k >= 0; --k) {
-                const Vec3& n = room.unwrap.charts[image.mirror[k]].normal;
-                const float offset = room.sources.mirrorOffset[image.mirror[k]];
-                reflected.centre -= 2 * (glm::dot(n, reflected.centre) - offset) * n;
-                o.objects.push_back(reflected);
+        // In the way before the first mirror, between it and the next, and so on.
+        for (const Sphere& object : objects)
+            for (int segment = 0; segment <= image.depth; ++segment) {
+                Sphere seen = object;
+                for (int k = segment - 1; k >= 0; --k) {
+                    const Vec3& n = room.unwrap.charts[image.mirror[k]].normal;
+                    const float offset = room.sources.mirrorOffset[image.mirror[k]];
+                    seen.centre -= 2 * (glm::dot(n, seen.centre) - offset) * n;
+                }
+                o.objects.push_back(seen);
             }
-            if (image.depth > 1) {
-                const Vec3& n = room.unwrap.charts[image.mirror[0]].normal;
-                const float offset = room.sources.mirrorOffset[image.mirror[0]];
-                Sphere once = object;
-                once.centre -= 2 * (glm::dot(n, once.centre) - offset) * n;
-                o.objects.push_back(once);
-            }
-        }
         all.push_back(std::move(o));
     }
     return all;
