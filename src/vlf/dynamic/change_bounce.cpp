@@ -123,19 +123,17 @@ void ChangeBounce::collect(const RoomTexels& room, const Coverage& coverage) {
             const std::uint32_t g = room.groupOf[a.texel];
             const TexelGroup& group = room.groups[g];
             if (a.distance > kFar * group.bounds.radius) {
-                if (groups_[g] == Vec3(0)) changedGroups_.push_back(g);
+                if (!std::exchange(groupListed_[g], 1)) changedGroups_.push_back(g);
                 groups_[g] += a.flux / group.area;
                 continue;
             }
             spread(a, room, coverage);
         }
-    // A geometric series of bounces between surfaces of the mean reflectance.
-    const Vec3 gain = 1.0f / glm::max(Vec3(0.05f), Vec3(1) - room.meanReflectance);
-    ambient_ = room.totalArea > 0 ? again * gain / room.totalArea : Vec3(0);
+    ambient_ = room.totalArea > 0 ? again * room.gain() / room.totalArea : Vec3(0);
 }
 
 void ChangeBounce::clear() {
-    for (const std::uint32_t g : changedGroups_) groups_[g] = Vec3(0);
+    for (const std::uint32_t g : changedGroups_) groups_[g] = Vec3(0), groupListed_[g] = 0;
     changedGroups_.clear();
     near_.clear();
     ambient_ = Vec3(0);
@@ -145,6 +143,7 @@ void ChangeBounce::find(const RoomChange& change, const Scene& scene, const RayS
                         const RoomTexels& room, const Coverage& coverage,
                         const SightObjects& objects, float roomFlux) {
     groups_.resize(room.groups.size(), Vec3(0));
+    groupListed_.resize(room.groups.size(), 0);
     clear();
     aim(change, scene, roomRays.epsilon(), room, coverage, roomFlux);
     shoot(scene, roomRays, room, objects);

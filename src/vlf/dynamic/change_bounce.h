@@ -57,6 +57,7 @@ class ChangeBounce {
     std::vector<TexelChange> near_;
     std::vector<std::uint32_t> square_;
     std::vector<Vec3> groups_;  ///< change of irradiance of all of a group's texels, W·m⁻²
+    std::vector<std::uint8_t> groupListed_;  ///< in changedGroups_
     std::vector<std::uint32_t> changedGroups_;
     Vec3 ambient_{0};  ///< of all texels
 };

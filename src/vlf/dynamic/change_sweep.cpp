@@ -83,8 +83,7 @@ void ChangeSweep::bounce(const LitRoom& room, std::vector<TexelChange>& light) {
     Vec3 flux(0);
     for (const std::uint32_t t : texels.unwrap.texels)
         flux += texels.area[t] * texels.reflectance[t] * irradiance_[t];
-    const Vec3 gain = 1.0f / glm::max(Vec3(0.05f), Vec3(1) - texels.meanReflectance);
-    const Vec3 rest = flux * gain / std::max(texels.totalArea, 1e-20f);
+    const Vec3 rest = flux * texels.gain() / std::max(texels.totalArea, 1e-20f);
     for (const std::uint32_t t : texels.unwrap.texels) light.push_back({t, rest});
 }
 

@@ -10,11 +10,14 @@ namespace {
 constexpr float kToleratedCells = 3;
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-float factorOf(float with, float without) {
-    return without > 0 ? std::clamp(with / without, 0.0f, ChangedCharts::kMaxFactor) : 1.0f;
-}
-
 }  // namespace
+
+Vec3 ChangedCharts::factorOf(const Vec3& with, const Vec3& without) {
+    Vec3 factor(1);
+    for (int c = 0; c < 3; ++c)
+        if (without[c] > 0) factor[c] = std::clamp(with[c] / without[c], 0.0f, kMaxFactor);
+    return factor;
+}
 
 ChangedCharts::ChangedCharts(const Scene& scene, const LightField& field)
     : field_(field), all_(field.charts.size()), follows_(field.charts.size(), 0) {
@@ -95,9 +98,8 @@ Vec3 ChangedCharts::factor(const Vec3& origin, const Vec3& direction, float dist
                            const IrradianceAtlas& with, const IrradianceAtlas& without) const {
     const Place place = find(origin, direction, distance);
     if (!place.chart) return Vec3(1);
-    const Vec3 now = with.sample(*place.chart, place.texel);
-    const Vec3 before = without.sample(*place.chart, place.texel);
-    return {factorOf(now.r, before.r), factorOf(now.g, before.g), factorOf(now.b, before.b)};
+    return factorOf(with.sample(*place.chart, place.texel),
+                    without.sample(*place.chart, place.texel));
 }
 
 }  // namespace vlf

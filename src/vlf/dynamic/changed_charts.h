@@ -44,6 +44,9 @@ class ChangedCharts {
     /// Metres between a surface and a place on it as the radiance field tells it: three cells.
     float tolerance() const { return tolerance_; }
 
+    /// By how much irradiance has changed, in [0, kMaxFactor]; 1 where there was none.
+    static Vec3 factorOf(const Vec3& with, const Vec3& without);
+
     /// The factor of radiance, in [0, kMaxFactor], that a ray of unit direction sees `distance`
     /// metres from its origin. 1 where nothing has changed. The atlases are those of update().
     Vec3 factor(const Vec3& origin, const Vec3& direction, float distance,

@@ -99,6 +99,14 @@ void Coverage::fill(const RoomTexels& room, IrradianceAtlas& light) const {
     }
 }
 
+void Coverage::restore(const RoomTexels& room, const IrradianceAtlas& own,
+                       IrradianceAtlas& light) const {
+    for (const std::uint32_t i : entries_) {
+        const std::uint32_t texel = room.unwrap.texels[i];
+        light.irradiance[texel] = own.irradiance[texel];
+    }
+}
+
 std::span<const SurfacePoint> Coverage::points(const RoomTexels& room, std::size_t i) const {
     const auto k = std::lower_bound(entries_.begin(), entries_.end(), i) - entries_.begin();
     if (static_cast<std::size_t>(k) == entries_.size() || entries_[k] != i)

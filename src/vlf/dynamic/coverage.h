@@ -33,6 +33,9 @@ class Coverage {
     /// so that nothing of what they had shows at the edge of an object.
     void fill(const RoomTexels& room, IrradianceAtlas& light) const;
 
+    /// Gives the texels that are covered, even in part, what they have in `own`.
+    void restore(const RoomTexels& room, const IrradianceAtlas& own, IrradianceAtlas& light) const;
+
     /// Entries of which less than all is uncovered, in ascending order.
     std::span<const std::uint32_t> entries() const { return entries_; }
 

@@ -14,6 +14,7 @@ namespace {
 
 constexpr int kMaxLines = 513;
 constexpr std::size_t kMaxMirrors = 16;
+constexpr float kSameWay = 1e-4f;  // of mirrors that face alike: 1 less the cosine
 /// An object that seems smaller than this from another (radius by distance) does not matter to it.
 constexpr float kNoticed = 0.02f;
 
@@ -46,19 +47,43 @@ void check(const DynamicObject& object) {
             "can have a shadow of an opacity from 0 to 1");
 }
 
+struct FlatMirror {
+    Vec3 normal;
+    float offset;  ///< dot(normal, p) of its points
+};
+
+/// The mirrors of a room by what they show of objects.
+struct RoomMirrors {
+    std::vector<FlatMirror> planes;
+    bool simple = true;  ///< all are flat, face the same way and are not many: none shows another
+};
+
+RoomMirrors mirrorsOf(const Scene& scene, const LightField& field, const RoomTexels& texels) {
+    RoomMirrors mirrors;
+    for (std::size_t c = 0; c < field.charts.size(); ++c) {
+        const Chart& chart = field.charts[c];
+        if (!scene.materials[chart.material].isMirror()) continue;
+        mirrors.planes.push_back({chart.normal, texels.sources.mirrorOffset[c]});
+        mirrors.simple = mirrors.simple && texels.sources.planarMirror[c] &&
+                         mirrors.planes.size() <= kMaxMirrors &&
+                         glm::dot(chart.normal, mirrors.planes.front().normal) > 1 - kSameWay;
+    }
+    return mirrors;
+}
+
 }  // namespace
 
 struct DynamicRoom::Impl {
     struct Entry {
         DynamicObject object;
-        std::unique_ptr<ObjectLight> light = std::make_unique<ObjectLight>();
+        std::unique_ptr<ObjectLight> light;
         bool unprepared = true, changed = true;
         bool stale = true;  ///< has not looked about since something changed
         Sphere sphere;      ///< around it in the update before
     };
 
     Impl(const Scene& s, const RayScene& rays, const LightField& f)
-        : scene(s), field(f), exchange(s, rays, f) {}
+        : scene(s), field(f), exchange(s, rays, f), mirrors(mirrorsOf(s, f, exchange.texels())) {}
 
     static Sphere sphereOf(const DynamicObject& object) {
         const Sphere& bounds = object.model->bounds();
@@ -68,37 +93,54 @@ struct DynamicRoom::Impl {
         return {object.pose.point(bounds.centre), radius};
     }
 
+    /// Makes all plans before any is used: where one cannot be made nothing has changed.
     void prepare() {
         const float cell = 2 * field.frame.radius / static_cast<float>(field.record.cells);
+        std::vector<std::pair<Entry*, ObjectLight::Plans>> made;
         for (Entry& entry : entries)
-            if (entry.object.visible && std::exchange(entry.unprepared, false))
-                entry.light->prepare(entry.object, plans,
-                                     std::min(field.record.directions, kMaxLines), cell,
-                                     exchange.texels().unwrap.texelSize);
+            if (entry.object.visible && entry.unprepared)
+                made.emplace_back(
+                    &entry, ObjectLight::makePlans(entry.object, plans,
+                                                   std::min(field.record.directions, kMaxLines),
+                                                   cell, exchange.texels().unwrap.texelSize));
+        for (auto& [entry, of] : made) {
+            entry->light->prepare(entry->object, std::move(of));
+            entry->unprepared = false;
+        }
     }
 
     /// Which objects have changed, or have one near by that has.
     void findStale() {
-        std::vector<Sphere> disturbances;
+        struct Disturbance {
+            const Entry* by;
+            Sphere sphere;
+        };
+        std::vector<Disturbance> disturbances;
         for (Entry& entry : entries) {
             if (!entry.changed) continue;
-            disturbances.push_back(entry.sphere);
+            disturbances.push_back({&entry, entry.sphere});
             entry.sphere = sphereOf(entry.object);
-            disturbances.push_back(entry.sphere);
+            disturbances.push_back({&entry, entry.sphere});
             entry.changed = false;
             entry.stale = true;
         }
-        for (Entry& entry : entries)
-            entry.stale =
-                entry.stale || allStale || entry.light->misses(entry.object, viewers) ||
-                std::any_of(disturbances.begin(), disturbances.end(), [&](const Sphere& d) {
-                    return d.radius > kNoticed * glm::distance(d.centre, entry.sphere.centre);
+        for (Entry& entry : entries) {
+            const bool disturbed =
+                allStale ||
+                std::any_of(disturbances.begin(), disturbances.end(), [&](const Disturbance& d) {
+                    return d.by != &entry &&
+                           d.sphere.radius >
+                               kNoticed * glm::distance(d.sphere.centre, entry.sphere.centre);
                 });
+            if (disturbed) entry.light->forget();
+            entry.stale = entry.stale || disturbed || entry.light->misses(entry.object, viewers);
+        }
         allStale = false;
     }
 
     void update() {
         prepare();
+        viewers = withImages(eyes);
         findStale();
         std::vector<Body> bodies;
         numbers.clear();
@@ -110,6 +152,7 @@ struct DynamicRoom::Impl {
         }
         exchange.run(bodies, viewers);
         ++lightVersion;
+        changed = false;
     }
 
     /// Objects have other numbers than before.
@@ -120,21 +163,20 @@ struct DynamicRoom::Impl {
         return entries[i];
     }
 
-    /// The eyes and their images in the room's mirrors; none where those are curved or many, which
-    /// means: from anywhere.
-    std::vector<Vec3> withImages(std::span<const Vec3> eyes) const {
-        std::vector<Vec3> all(eyes.begin(), eyes.end());
-        const RoomTexels& texels = exchange.texels();
-        std::size_t mirrors = 0;
-        for (std::size_t c = 0; c < field.charts.size(); ++c) {
-            const Chart& chart = field.charts[c];
-            if (!scene.materials[chart.material].isMirror()) continue;
-            if (!texels.sources.planarMirror[c] || ++mirrors > kMaxMirrors) return {};
-            for (const Vec3& eye : eyes) {
-                const float height = glm::dot(chart.normal, eye) - texels.sources.mirrorOffset[c];
-                if (height > 0) all.push_back(eye - 2 * height * chart.normal);
+    /// The eyes and their images in the room's mirrors; none, which means from anywhere, where
+    /// mirrors show all sides.
+    std::vector<Vec3> withImages(std::span<const Vec3> from) const {
+        const bool mirrorObject =
+            std::any_of(entries.begin(), entries.end(), [](const Entry& entry) {
+                return entry.object.visible && entry.object.model->mirrors();
+            });
+        if (!mirrors.simple || mirrorObject) return {};
+        std::vector<Vec3> all(from.begin(), from.end());
+        for (const FlatMirror& mirror : mirrors.planes)
+            for (const Vec3& eye : from) {
+                const float height = glm::dot(mirror.normal, eye) - mirror.offset;
+                if (height > 0) all.push_back(eye - 2 * height * mirror.normal);
             }
-        }
         return all;
     }
 
@@ -142,9 +184,11 @@ struct DynamicRoom::Impl {
     const LightField& field;
     ObjectPlans plans;
     LightExchange exchange;
+    RoomMirrors mirrors;
     std::vector<Entry> entries;
     std::vector<std::size_t> numbers;
-    std::vector<Vec3> viewers;
+    std::vector<Vec3> eyes, viewers;  ///< without their images and with them
+    std::uint32_t lightsMade = 0;     ///< of objects, ever
     std::uint64_t lightVersion = 0;
     bool changed = false, allStale = false;
 };
@@ -164,7 +208,9 @@ const DynamicObject& DynamicRoom::object(std::size_t i) const {
 
 void DynamicRoom::add(DynamicObject object) {
     check(object);
-    impl_->entries.emplace_back().object = std::move(object);
+    Impl::Entry& entry = impl_->entries.emplace_back();
+    entry.object = std::move(object);
+    entry.light = std::make_unique<ObjectLight>(impl_->lightsMade++);
     impl_->renumbered();
 }
 
@@ -212,6 +258,7 @@ void DynamicRoom::setVisible(std::size_t i, bool visible) {
 }
 
 void DynamicRoom::setViewers(std::span<const Vec3> eyes) {
+    impl_->eyes.assign(eyes.begin(), eyes.end());
     impl_->viewers = impl_->withImages(eyes);
     impl_->changed =
         impl_->changed ||
@@ -228,7 +275,7 @@ void DynamicRoom::setRoomIrradiance(const IrradianceAtlas& atlas) {
 }
 
 bool DynamicRoom::update() {
-    if (!std::exchange(impl_->changed, false)) return false;
+    if (!impl_->changed) return false;
     impl_->update();
     return true;
 }
@@ -250,9 +297,6 @@ const IrradianceAtlas& DynamicRoom::roomIrradiance() const {
 }
 std::uint64_t DynamicRoom::irradianceVersion() const {
     return impl_->lightVersion;
-}
-const PointLighting& DynamicRoom::pointLighting() const {
-    return impl_->exchange.pointLighting();
 }
 const PointLight* DynamicRoom::hardShadowLight() const {
     const PointLighting& points = impl_->exchange.pointLighting();

@@ -35,14 +35,17 @@ class DynamicRoom {
     void setModel(std::size_t i, std::shared_ptr<const ObjectModel> model);
     void setVisible(std::size_t i, bool visible);
 
-    /// From where objects are seen, straight or in mirrors of the room: light need not be known
-    /// elsewhere (GatherSettings::onlyVisible). None: from anywhere.
+    /// From where objects are seen, straight or in a mirror of the room: light need not be known
+    /// elsewhere (GatherSettings::onlyVisible). None: from anywhere; as where mirrors of the room
+    /// are curved or show one another, or an object mirrors.
     void setViewers(std::span<const Vec3> eyes);
 
     /// The room's own light is another one, of the same charts.
     void setRoomIrradiance(const IrradianceAtlas& atlas);
 
-    /// Finds the light anew where something has changed. Returns whether anything did.
+    /// Finds the light anew where something has changed. Returns whether anything did. Throws
+    /// InputError if an object cannot be lit as its settings say (texels too small, too many
+    /// triangles); the light is as before then, and the next call tries again.
     bool update();
 
     /// One by one the objects that are visible, and the number of each.
@@ -56,9 +59,6 @@ class DynamicRoom {
     const IrradianceAtlas& irradiance() const;
     const IrradianceAtlas& roomIrradiance() const;
     std::uint64_t irradianceVersion() const;
-
-    /// Known once an object is shaded by them or casts a hard shadow; else empty.
-    const PointLighting& pointLighting() const;
 
     /// How irradiance in the room is changed by `hard` shadows is not in irradiance(): renderers
     /// lay them over, of every lit object whose settings say so, away from this light.

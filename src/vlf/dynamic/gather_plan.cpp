@@ -149,10 +149,7 @@ void assemble(const std::vector<DirectionPart>& parts, const std::vector<Vec3>& 
               GatherPlan& plan) {
     plan.firstLaunch.assign(1, 0);
     for (const DirectionPart& part : parts) {
-        for (const std::uint32_t r : part.launches) {
-            plan.launches.push_back(positions[r]);
-            plan.launchReceiver.push_back(r);
-        }
+        for (const std::uint32_t r : part.launches) plan.launches.push_back(positions[r]);
         plan.firstLaunch.push_back(static_cast<std::uint32_t>(plan.launches.size()));
     }
     plan.outside = sortByReceiver(parts, &DirectionPart::outside, positions.size(),
@@ -218,10 +215,21 @@ void GatherSights::pickDirections(const GatherPlan& plan, const Vec3& centre, in
     }
 }
 
+void GatherSights::findNeeded(const GatherPlan& plan) {
+    needed_.clear();
+    if (wanted_.empty()) return;
+    needed_.assign(plan.launches.size(), 0);
+    for (std::size_t r = 0; r < wanted_.size(); ++r) {
+        if (!wanted_[r]) continue;
+        for (const GatherPlan::Entry& entry : plan.outside.of(r)) needed_[entry.from] = 1;
+    }
+}
+
 void GatherSights::trace(const GatherPlan& plan, const Pose& pose, const LitRoom& room,
                          const SightObjects& objects, const Coverage& coverage,
                          std::span<const std::uint8_t> wanted, bool emission) {
     wanted_.assign(wanted.begin(), wanted.end());
+    findNeeded(plan);
     const std::size_t count = plan.launches.size();
     texel_.assign(count, kNoTexel);
     valid_.assign(count, 0);
@@ -241,7 +249,7 @@ void GatherSights::trace(const GatherPlan& plan, const Pose& pose, const LitRoom
             // From just within the object: what touches it is seen.
             const Vec3 back = -kContact * room.rays.epsilon() * direction;
             for (std::uint32_t i = plan.firstLaunch[d]; i < plan.firstLaunch[d + 1]; ++i) {
-                if (!wants(plan.launchReceiver[i])) continue;
+                if (!needed_.empty() && !needed_[i]) continue;
                 queue.push_back({pose.point(plan.launches[i]) + back, direction});
                 launchOf.push_back(i);
                 scaleOf.push_back(1 / chance(d));

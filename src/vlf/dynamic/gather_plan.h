@@ -45,12 +45,11 @@ struct GatherPlan {
         }
     };
 
-    std::vector<Vec3> directions;               ///< oriented, unit
-    std::vector<std::uint32_t> firstLaunch;     ///< launches of direction d: firstLaunch[d] on
-    std::vector<Vec3> launches;                 ///< points on the object
-    std::vector<std::uint32_t> launchReceiver;  ///< the receiver that each is at
-    Entries outside;                            ///< from launches
-    Entries inside;  ///< from receivers: parts of the object that are seen
+    std::vector<Vec3> directions;            ///< oriented, unit
+    std::vector<std::uint32_t> firstLaunch;  ///< launches of direction d: firstLaunch[d] on
+    std::vector<Vec3> launches;              ///< points on the object
+    Entries outside;                         ///< from launches
+    Entries inside;                          ///< from receivers: parts of the object that are seen
 };
 
 GatherPlan makeGatherPlan(const ObjectReceivers& receivers, const Sphere& bounds,
@@ -85,6 +84,7 @@ class GatherSights {
         Sight sight;
     };
 
+    void findNeeded(const GatherPlan& plan);
     bool wants(std::size_t receiver) const { return wanted_.empty() || wanted_[receiver]; }
     float chance(std::size_t direction) const { return chances_.empty() ? 1 : chances_[direction]; }
     void reflectWithin(const GatherPlan& plan, const ObjectReceivers& receivers,
@@ -93,7 +93,8 @@ class GatherSights {
                       std::span<const LitObject> lit);
 
     std::vector<float> chances_;  ///< by direction, of being followed; 0: is not; empty: all are
-    std::vector<std::uint8_t> wanted_;
+    std::vector<std::uint8_t> wanted_;  ///< by receiver; empty: all are
+    std::vector<std::uint8_t> needed_;  ///< by launch: a wanted receiver shares it; empty: all are
     std::vector<std::uint32_t> texel_;  ///< by launch: seen at once and without emission
     std::vector<std::uint8_t> valid_;
     std::vector<std::vector<Seen>> others_;  ///< by block

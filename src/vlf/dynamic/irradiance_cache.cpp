@@ -10,8 +10,8 @@ namespace {
 constexpr float kNormalSteps = 6;  // to a unit along each axis: about 10 degrees
 }
 
-void IrradianceCache::setCell(float cell) {
-    if (cell != cell_) clear();
+void IrradianceCache::begin(float cell) {
+    if (cell != cell_ || values_.size() > kMaxSize) clear();
     cell_ = cell;
 }
 
@@ -33,8 +33,7 @@ std::optional<Vec3> IrradianceCache::find(const Vec3& position, const Vec3& norm
 }
 
 void IrradianceCache::store(const Vec3& position, const Vec3& normal, const Vec3& irradiance) {
-    if (values_.size() >= kMaxSize) clear();
-    values_.try_emplace(key(position, normal), irradiance);
+    values_.insert_or_assign(key(position, normal), irradiance);
 }
 
 }  // namespace vlf

@@ -11,19 +11,18 @@
 
 namespace vlf {
 
-/// One value for each cell of space and of directions, the first that is stored there. It forgets
-/// all when it has grown to kMaxSize.
+/// One value for each cell of space and of directions, the last that is stored there.
 class IrradianceCache {
   public:
     static constexpr std::size_t kMaxSize = 1u << 20;
 
-    /// Another width of cells, metres, clears it.
-    void setCell(float cell);
+    /// To be called before others look for what they store next. Another width of cells, metres,
+    /// clears it, and so do more than kMaxSize values.
+    void begin(float cell);
 
     std::optional<Vec3> find(const Vec3& position, const Vec3& normal) const;
     void store(const Vec3& position, const Vec3& normal, const Vec3& irradiance);
     void clear() { values_.clear(); }
-    std::size_t size() const { return values_.size(); }
 
   private:
     std::uint64_t key(const Vec3& position, const Vec3& normal) const;

@@ -87,6 +87,7 @@ void LightExchange::run(std::span<const Body> bodies, std::span<const Vec3> view
     place();
     findPointLights();
     findEmitters();
+    coverage_.restore(texels_, roomLight_, light_);
     coverage_.find(scene_, roomRays_, texels_, instances_, lit_, spheres_);
     times_.place = watch.lap();
     const Surroundings around{litRoom(), radiance_, instances_, lit_,    coverage_,

@@ -25,7 +25,7 @@ struct LitObject {
     std::span<const Vec3> vertexIrradiance;  ///< mesh->sidedVertexCount() entries; empty: by texel
     const ObjectTexels* texels = nullptr;    ///< null: by vertex
     const IrradianceAtlas* atlas = nullptr;
-    std::uint64_t version = 0;  ///< another one whenever the light or the mesh is another
+    std::uint64_t version = 0;  ///< another one whenever the light, the mesh or the object is
 
     /// At barycentric coordinates of the second and third vertex; zero on the inside of a solid.
     Vec3 irradiance(std::uint32_t triangle, const Vec2& barycentric, bool front) const;

@@ -4,6 +4,7 @@
 #include "vlf/dynamic/soft_shadow.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace vlf {
 
@@ -30,14 +31,21 @@ int texelsOf(const DynamicObject& object, float roomTexel) {
 
 }  // namespace
 
-void ObjectLight::prepare(const DynamicObject& object, ObjectPlans& plans, int lines,
-                          float roomCell, float roomTexel) {
-    plan_ = plans.plan(object, texelsOf(object, roomTexel));
+ObjectLight::Plans ObjectLight::makePlans(const DynamicObject& object, ObjectPlans& plans,
+                                          int lines, float roomCell, float roomTexel) {
+    Plans made{plans.plan(object, texelsOf(object, roomTexel)), nullptr};
+    if (object.settings.shadow != ShadowKind::field) return made;
     const float diameter = 2 * object.model->bounds().radius;
     const float cell =
         std::clamp(roomCell / object.pose.scale, diameter / kMostCells, diameter / kLeastCells);
-    lines_ =
-        object.settings.shadow == ShadowKind::field ? plans.linesPlan(plan_, lines, cell) : nullptr;
+    made.lines = plans.linesPlan(made.plan, lines, cell);
+    return made;
+}
+
+void ObjectLight::prepare(const DynamicObject& object, Plans plans) {
+    plan_ = std::move(plans.plan);
+    lines_ = std::move(plans.lines);
+    cache_.clear();
     const ObjectReceivers& receivers = *plan_->receivers;
     irradiance_.assign(receivers.size(), Vec3(0));
     direct_ = radiance_ = irradiance_;
@@ -108,7 +116,7 @@ void ObjectLight::lookForGather(const DynamicObject& object, const Surroundings&
     traced_ = wanted_;
     if (settings.cache) {
         const Sphere& bounds = object.model->bounds();
-        cache_.setCell(kCacheCell * 2 * bounds.radius * object.pose.scale);
+        cache_.begin(kCacheCell * 2 * bounds.radius * object.pose.scale);
         traced_.resize(receivers.size(), 1);
         for (std::size_t r = 0; r < receivers.size(); ++r)
             if (cache_.find(object.pose.point(receivers.position[r]),

@@ -30,10 +30,20 @@ struct Surroundings {
 
 class ObjectLight {
   public:
-    /// Makes ready what the object's settings ask for. `roomCell`: width of a cell of the
-    /// field, `roomTexel`: of its texels, m.
-    void prepare(const DynamicObject& object, ObjectPlans& plans, int lines, float roomCell,
-                 float roomTexel);
+    /// `number`: among all there ever were of a room; tells versions of LitObject apart.
+    explicit ObjectLight(std::uint32_t number) { lit_.version = std::uint64_t{number} << 32; }
+
+    struct Plans {
+        std::shared_ptr<const ObjectPlan> plan;
+        std::shared_ptr<const LinesPlan> lines;  ///< null: it does not change the room
+    };
+    /// What the object's settings ask for. `roomCell`: width of a cell of the field, `roomTexel`:
+    /// of its texels, m. Throws InputError as Unwrap and ObjectModel::mesh.
+    static Plans makePlans(const DynamicObject& object, ObjectPlans& plans, int lines,
+                           float roomCell, float roomTexel);
+
+    /// Makes ready to light the object by its plans.
+    void prepare(const DynamicObject& object, Plans plans);
 
     const LitObject& lit() const { return lit_; }
 

@@ -42,6 +42,7 @@ ObjectModel::ObjectModel(Scene scene) {
     if (scene.triangles.empty()) throw InputError("an object needs at least one triangle");
     bounds_ = boundingSphere(scene);
     emits_ = hasEmitter(scene);
+    mirrors_ = hasMirror(scene);
     base_ = std::make_unique<const ObjectMesh>(std::move(scene));
 }
 

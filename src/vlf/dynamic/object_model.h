@@ -38,6 +38,7 @@ class ObjectModel {
     const Sphere& bounds() const { return bounds_; }
 
     bool emits() const { return emits_; }
+    bool mirrors() const { return mirrors_; }
 
     /// The mesh with every edge cut in half `subdivision` times, in [0, kMaxSubdivision]. Throws
     /// InputError if it would have more than 2^26 triangles.
@@ -46,7 +47,7 @@ class ObjectModel {
   private:
     std::unique_ptr<const ObjectMesh> base_;
     Sphere bounds_;
-    bool emits_ = false;
+    bool emits_ = false, mirrors_ = false;
     mutable std::mutex mutex_;
     mutable std::array<std::unique_ptr<const ObjectMesh>, kMaxSubdivision> subdivided_;
 };

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <numeric>
 
-#include <glm/gtc/packing.hpp>
 #include <glm/packing.hpp>
 
 namespace vlf {
@@ -255,18 +254,6 @@ PrtTransfer computeTransfer(const ObjectMesh& mesh, const PrtSettings& settings)
     parallelFor(rows.size(), 16, [&](std::size_t v) { rows[v] = tracer.trace(v, reflections[v]); });
     if (settings.reflections) bounce(mesh, reflections, rows);
     return pack(mesh, rows, std::clamp(settings.order, 1, kMaxShOrder));
-}
-
-std::vector<std::uint16_t> halfTransfer(const PrtTransfer& transfer) {
-    const std::size_t stride = halfStride(transfer.order);
-    std::vector<std::uint16_t> halves(transfer.vertexCount * stride, 0);
-    for (std::size_t v = 0; v < transfer.vertexCount; ++v)
-        for (int f = 0; f < shCount(transfer.order); ++f) {
-            const Vec3 t = transfer.coefficient(v, f);
-            for (int c = 0; c < 3; ++c)
-                halves[v * stride + static_cast<std::size_t>(3 * f + c)] = glm::packHalf1x16(t[c]);
-        }
-    return halves;
 }
 
 }  // namespace vlf

@@ -64,12 +64,4 @@ void applyTransfer(const PrtTransfer& transfer, const Sh<Vec3>& radiance,
 void applyTransfer(const PrtTransfer& transfer, const std::array<Sh<Vec3>, 8>& corners,
                    std::span<Vec3> irradiance);
 
-/// Half floats per vertex of halfTransfer: a multiple of 4, so that texels of four hold them.
-constexpr std::size_t halfStride(int order) {
-    return static_cast<std::size_t>(3 * shCount(order) + 3) / 4 * 4;
-}
-
-/// For graphics memory: half floats by vertex, function and channel; the rest of a stride is zero.
-std::vector<std::uint16_t> halfTransfer(const PrtTransfer& transfer);
-
 }  // namespace vlf

@@ -63,6 +63,10 @@ struct RoomTexels {
     Vec3 meanReflectance{0};             ///< diffuse, over all area
     float totalArea = 0;                 ///< m²
     std::vector<std::uint32_t> entryOf;  ///< of unwrap.texels, of covered texels
+
+    /// All light after any number of further bounces by that of the first: a geometric series,
+    /// between surfaces of the mean reflectance.
+    Vec3 gain() const { return 1.0f / glm::max(Vec3(0.05f), Vec3(1) - meanReflectance); }
 };
 
 /// Throws InputError if the field is not of the scene.

@@ -68,6 +68,11 @@ bool hasEmitter(const Scene& scene) {
                        [&](const Triangle& t) { return scene.materials[t.material].isEmitter(); });
 }
 
+bool hasMirror(const Scene& scene) {
+    return std::any_of(scene.triangles.begin(), scene.triangles.end(),
+                       [&](const Triangle& t) { return scene.materials[t.material].isMirror(); });
+}
+
 Bounds boundsOf(const Scene& scene) {
     Bounds bounds;
     for (const Vec3& p : scene.positions) bounds.add(p);

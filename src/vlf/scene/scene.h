@@ -48,8 +48,8 @@ struct Camera {
     std::string name;
     Vec3 eye{0, 0, 0}, look{0, 0, -1}, up{0, 1, 0};
     float verticalFov = 50;
-    /// Where the picture's centre lies on the plane one metre before the eye: metres to the right of
-    /// and above the line of sight. Of one eye of a pair; scene files do not hold it.
+    /// Where the picture's centre lies on the plane one metre before the eye: metres to the right
+    /// of and above the line of sight. Of one eye of a pair; scene files do not hold it.
     Vec2 shift{0};
 };
 
@@ -92,8 +92,9 @@ Vec3 diffuseReflectance(const Scene& scene, const Material& material, const Vec2
 Vec3 mirrorReflectance(const Scene& scene, const Material& material, const Vec2& uv);
 Vec3 emittedRadiance(const Scene& scene, const Material& material, const Vec2& uv);
 
-/// Whether any triangle's material emits.
+/// Whether any triangle's material emits, or mirrors.
 bool hasEmitter(const Scene& scene);
+bool hasMirror(const Scene& scene);
 
 Bounds boundsOf(const Scene& scene);
 

@@ -231,5 +231,29 @@ TEST(DynamicRoom, RefusesSettingsOutOfRange) {
     expectRefused(room, [&] { room.setModel(0, nullptr); });
 }
 
+TEST(DynamicRoom, KeepsItsLightWhenAnObjectCannotBeLit) {
+    FilledRoom filled(lampLit(), {bodyAt("cube", Vec3(1), 0.3f)});
+    DynamicRoom& room = filled.room;
+    const std::vector<Vec3> before = room.irradiance().irradiance;
+    DynamicObject other = bodyAt("cube", Vec3(0.5f), 0.3f);
+    other.settings.gather.texelSize = 1e-7f;
+    room.add(other);
+    Pose pose = room.object(0).pose;
+    pose.scale = 0.4f;  // has the first one prepared anew, too
+    room.setPose(0, pose);
+    for (int again = 0; again < 2; ++again) {
+        EXPECT_THROW(room.update(), InputError);
+        EXPECT_EQ(room.irradiance().irradiance, before);
+        ASSERT_EQ(room.litObjects().size(), 1u);
+        EXPECT_TRUE(isAllLight(room));
+    }
+    other.settings.gather.texelSize = 0;
+    room.setSettings(1, other.settings);
+    EXPECT_TRUE(room.update());
+    DynamicObject first = room.object(0);
+    const FilledRoom fresh(lampLit(), {first, other});
+    EXPECT_EQ(room.irradiance().irradiance, fresh.room.irradiance().irradiance);
+}
+
 }  // namespace
 }  // namespace vlf::test

@@ -11,8 +11,6 @@
 
 #include <functional>
 
-#include <glm/gtc/packing.hpp>
-
 #include <gtest/gtest.h>
 
 namespace vlf {
@@ -228,20 +226,6 @@ TEST(PrtTransfer, IrradianceIsNeverNegative) {
     for (int f = 0; f < kMaxShCount; ++f) light[f] = Vec3(basis[f]);
     for (const Vec3& e : applied(computeTransfer(mesh, {}), light))
         EXPECT_GE(std::min({e.x, e.y, e.z}), 0);
-}
-
-TEST(PrtTransfer, HalfFloatsHoldTheSame) {
-    const ObjectMesh mesh(makePrimitive("cube", {}));
-    const PrtTransfer transfer = computeTransfer(mesh, {.order = 3});
-    const std::vector<std::uint16_t> halves = halfTransfer(transfer);
-    ASSERT_EQ(halfStride(3), 28u);
-    ASSERT_EQ(halves.size(), transfer.vertexCount * 28);
-    for (std::size_t v = 0; v < transfer.vertexCount; ++v)
-        for (int f = 0; f < 9; ++f)
-            for (int c = 0; c < 3; ++c)
-                EXPECT_NEAR(
-                    glm::unpackHalf1x16(halves[v * 28 + static_cast<std::size_t>(3 * f + c)]),
-                    transfer.coefficient(v, f)[c], 2e-3f);
 }
 
 TEST(PrtStore, ObjectsOfOneModelShareATransfer) {

@@ -126,6 +126,22 @@ TEST(SameLight, OfObjectsWithoutShadowsWhateverCameBefore) {
     EXPECT_EQ(differences(allLight(fresh), allLight(moved)), 0u);
 }
 
+TEST(SameLight, WhereAnObjectWithoutShadowStood) {
+    DynamicObject cube = bodyAt("cube", {1, 0.15f, 1}, 0.3f);
+    cube.settings.shadow = ShadowKind::none;
+    FilledRoom filled(lampLit(), {cube});
+    ASSERT_GT(
+        differences(filled.room.irradiance().irradiance, filled.room.roomIrradiance().irradiance),
+        0u)
+        << "the floor under it is not seen";
+    cube.pose.translation = Vec3(1);
+    filled.room.setPose(0, cube.pose);
+    filled.room.update();
+    EXPECT_EQ(
+        differences(filled.room.irradiance().irradiance, filled.room.roomIrradiance().irradiance),
+        0u);
+}
+
 TEST(SameLight, WhateverSettingsCameBefore) {
     RandomStream random(2, 0);
     const auto pick = [&](int count) { return static_cast<int>(random.next() * count) % count; };

@@ -27,6 +27,22 @@ const BakedRoom& mirrored() {
     return baked;
 }
 
+/// The same with a mirror for the opposite wall, too.
+const BakedRoom& twiceMirrored() {
+    static const BakedRoom baked([] {
+        Scene scene = lampRoom();
+        Material mirror;
+        mirror.diffuse = Vec3(0);
+        mirror.mirror = Vec3(0.9f);
+        scene.materials.push_back(mirror);
+        const auto last = static_cast<std::uint32_t>(scene.materials.size() - 1);
+        for (std::uint32_t t = 0; t < scene.triangles.size(); ++t)
+            if (std::abs(geometricNormal(scene, t).x) > 0.9f) scene.triangles[t].material = last;
+        return scene;
+    }());
+    return baked;
+}
+
 /// A cube that casts no shadow, so that only what is seen of it needs light.
 DynamicObject cube() {
     DynamicObject object = bodyAt("cube", {1, 1, 1}, 0.4f);
@@ -124,6 +140,39 @@ TEST(VisibleParts, AreThoseThatMirrorsShow) {
     other.seeFrom({kRight});
     other.turn();
     EXPECT_EQ(other.sides().substr(0, 2), "ll");
+}
+
+TEST(VisibleParts, AreAllBetweenTwoMirrors) {
+    // Its lower side shows in the mirror x = 2 as x = 0 shows it, not to the eye or in one of them.
+    const float tilt = 0.31f;
+    DynamicObject object = cube();
+    object.pose.rotation = glm::angleAxis(tilt, Vec3(0, 0, 1));
+    FilledRoom filled(twiceMirrored(), {object});
+    filled.room.setViewers(std::vector<Vec3>{{1, 1.9f, 1}});
+    object.pose.translation.z += 0.01f;
+    filled.room.setPose(0, object.pose);
+    filled.room.update();
+    const FilledRoom all(twiceMirrored(), {object});
+    const Vec3 below = object.pose.direction({0, -1, 0});
+    EXPECT_EQ(meanIrradiance(filled.room.litObjects()[0], below),
+              meanIrradiance(all.room.litObjects()[0], below));
+}
+
+TEST(VisibleParts, AreAllBesideAnObjectThatMirrors) {
+    DynamicObject mirror = bodyAt("cube", {0.4f, 1, 1}, 0.2f);
+    Scene scene = mirror.model->scene();
+    scene.materials.front().mirror = Vec3(0.9f);
+    scene.materials.front().diffuse = Vec3(0);
+    mirror.model = std::make_shared<ObjectModel>(std::move(scene));
+    DynamicObject object = cube();
+    FilledRoom filled(lampLit(), {object, mirror});
+    filled.room.setViewers(std::vector<Vec3>{kRight});
+    object.pose.translation.z += 0.1f;
+    filled.room.setPose(0, object.pose);
+    filled.room.update();
+    const FilledRoom all(lampLit(), {object, mirror});
+    EXPECT_EQ(meanIrradiance(filled.room.litObjects()[0], {-1, 0, 0}),
+              meanIrradiance(all.room.litObjects()[0], {-1, 0, 0}));
 }
 
 TEST(VisibleParts, AreAllOfWhatLightsTheRoom) {

@@ -16,11 +16,6 @@ constexpr int kMaxReflections = 16;
 constexpr float kMinThroughput = 1e-4f;
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-bool hasMirrors(const Scene& scene) {
-    return std::any_of(scene.triangles.begin(), scene.triangles.end(),
-                       [&](const Triangle& t) { return scene.materials[t.material].isMirror(); });
-}
-
 }  // namespace
 
 /// A chain of reflections from the eye.
@@ -74,7 +69,7 @@ FieldShader::FieldShader(const Scene& scene, const RayScene& rays, const LightFi
     if (field.triangleCharts.size() != scene.triangles.size())
         throw InputError("the light field belongs to another scene: bake this one");
     if (mirrors == MirrorMethod::traced) return;
-    if (hasMirrors(scene)) {
+    if (hasMirror(scene)) {
         if (field.radiance.empty())
             throw InputError(
                 "the light field holds no radiance of mirrors to look up: bake with "
@@ -91,7 +86,7 @@ void FieldShader::fillProbes() {
     std::vector<ReflectionProbe> probes;
     for (const LitObject& object : objects_->litObjects()) {
         ReflectionProbe& probe = probes.emplace_back();
-        if (!hasMirrors(object.mesh->scene)) continue;
+        if (!hasMirror(object.mesh->scene)) continue;
         const Vec3 centre = object.pose.point(boundingSphere(object.mesh->scene).centre);
         fillProbe(probe, centre, kProbeSize,
                   [&](std::span<const Ray> rays, std::span<Vec3> radiance, std::span<float> from) {

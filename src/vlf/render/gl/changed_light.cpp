@@ -11,10 +11,6 @@ namespace {
 
 static_assert(shared::kMostReceivers == ChangedCharts::kMaxCharts);
 
-float factorOf(float with, float without) {
-    return without > 0 ? std::clamp(with / without, 0.0f, ChangedCharts::kMaxFactor) : 1.0f;
-}
-
 shared::ReceiverData receiverOf(const ChangedChart& changed, const Chart& chart) {
     return {Vec4(chart.uAxis, chart.uOffset), Vec4(chart.vAxis, chart.vOffset),
             Vec4(chart.normal, changed.lower), Vec4(changed.first, changed.last),
@@ -74,11 +70,8 @@ void ChangedLight::load(const ChangedChart& changed, const IrradianceAtlas& with
     const std::uint32_t y1 = to(changed.last.y, chart.y, with.height);
     packed_.clear();
     for (std::uint32_t y = y0; y < y1; ++y)
-        for (std::uint32_t x = x0; x < x1; ++x) {
-            const Vec3 &now = with.at(x, y), &before = without.at(x, y);
-            packed_.push_back(packRgb9e5(
-                {factorOf(now.r, before.r), factorOf(now.g, before.g), factorOf(now.b, before.b)}));
-        }
+        for (std::uint32_t x = x0; x < x1; ++x)
+            packed_.push_back(packRgb9e5(ChangedCharts::factorOf(with.at(x, y), without.at(x, y))));
     glTextureSubImage2D(factors_.id(), 0, static_cast<GLint>(x0), static_cast<GLint>(y0),
                         static_cast<GLsizei>(x1 - x0), static_cast<GLsizei>(y1 - y0), GL_RGB,
                         GL_UNSIGNED_INT_5_9_9_9_REV, packed_.data());

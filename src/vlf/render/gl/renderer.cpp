@@ -49,11 +49,6 @@ PixelRectangle partOf(const View& view) {
     return view.part.value_or(PixelRectangle{view.x, view.y, view.width, view.height});
 }
 
-bool hasMirrors(const Scene& scene) {
-    return std::any_of(scene.triangles.begin(), scene.triangles.end(),
-                       [&](const Triangle& t) { return scene.materials[t.material].isMirror(); });
-}
-
 const LightField& requireSameScene(const Scene& scene, const LightField& field) {
     if (field.triangleCharts.size() != scene.triangles.size())
         throw InputError("the light field belongs to another scene: bake this one");
@@ -78,9 +73,8 @@ struct Renderer::Impl {
           shaders(options.shaderFolder),
           textures(scene),
           atlas(requireSameScene(scene, field), textureSide(options)),
-          canLookUp(!hasMirrors(scene) || !field.radiance.empty()),
-          objects(scene, field, shaders,
-                  hasMirrors(scene) && canLookUp && atlas.fit().unchanged()) {
+          canLookUp(!hasMirror(scene) || !field.radiance.empty()),
+          objects(scene, field, shaders, hasMirror(scene) && canLookUp && atlas.fit().unchanged()) {
         const RoomGeometry room = makeRoomGeometry(scene, atlas.fit().layout());
         loadGeometry(room);
         if (const std::uint32_t k = atlas.fit().factor(); k > 1)
@@ -181,7 +175,6 @@ struct Renderer::Impl {
         atlas.update(room.irradiance());
         roomVersion = room.irradianceVersion();
         memory.hits = objects.hits().bytes();
-        memory.objects = objects.bytes();
         ++lightChanges;
     }
 
@@ -195,6 +188,7 @@ struct Renderer::Impl {
             drawDiagram(view, settings, framebuffer);
         else
             drawRoom(view, settings, framebuffer);
+        if (!objects.empty()) memory.objects = objects.bytes();
         if (drawings) memory.drawings = drawings->bytes();
     }
 
@@ -259,7 +253,6 @@ struct Renderer::Impl {
                            });
         viewData = shown;
         glNamedBufferSubData(viewBuffer.id(), 0, sizeof viewData, &viewData);
-        memory.objects = objects.bytes();
     }
 
     /// Those of the room, with the program in use.
