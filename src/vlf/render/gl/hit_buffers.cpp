@@ -102,7 +102,7 @@ void HitBuffers::reserve(Row& row, std::size_t bytes) {
     if (bytes / row.texelBytes > static_cast<std::size_t>(most))
         throw InputError(
             "the scene, its objects or their textures exceed what this GPU holds for traced "
-            "reflections: show it in mode field, or render with --backend cpu");
+            "reflections: without objects show it in mode field, or render with --backend cpu");
     if (row.buffer && bytes <= row.capacity) return;
     row.capacity = std::max(bytes, kLeast);
     Buffer larger = makeBuffer(nullptr, row.capacity, GL_DYNAMIC_STORAGE_BIT);
@@ -132,7 +132,7 @@ void HitBuffers::bind() const {
 
 std::uint64_t HitBuffers::bytes() const {
     std::uint64_t sum = 0;
-    for (const Row& row : rows_) sum += row.bytes;
+    for (const Row& row : rows_) sum += row.capacity;
     return sum;
 }
 

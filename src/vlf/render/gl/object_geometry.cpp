@@ -1,23 +1,14 @@
 #include "vlf/render/gl/object_geometry.h"
 
 #include "vlf/render/gl/octahedron.h"
+#include "vlf/render/gl/side_batches.h"
 
-#include <map>
-#include <tuple>
 #include <unordered_map>
 #include <utility>
 
 namespace vlf {
 
 namespace {
-
-/// One side of a triangle.
-struct Side {
-    std::uint32_t triangle;
-    std::uint32_t chart;
-    bool front;
-    bool cull;
-};
 
 /// Charts that only say which material a side has: one a material.
 ObjectTexels materialCharts(const ObjectMesh& mesh) {
@@ -35,7 +26,7 @@ class ObjectMaker {
         : mesh_(mesh), scene_(mesh.scene), texels_(texels) {}
 
     ObjectGeometry make() {
-        for (const auto& [key, sides] : sortSides()) addBatch(sides);
+        for (const auto& sides : sortSides(scene_, texels_.triangleCharts)) addBatch(sides);
         made_.surfaces = makeHitSurfaces(scene_, texels_.charts, texels_.triangleCharts);
         made_.bvh = buildBvh(scene_);
         made_.bounds = boundingSphere(scene_);
@@ -43,39 +34,8 @@ class ObjectMaker {
     }
 
   private:
-    using Key = std::tuple<bool, std::uint32_t, bool, bool, bool>;
-
-    std::map<Key, std::vector<Side>> sortSides() const {
-        std::map<Key, std::vector<Side>> sides;
-        for (std::uint32_t t = 0; t < scene_.triangles.size(); ++t) {
-            const TriangleCharts& charts = texels_.triangleCharts[t];
-            const bool both = charts.front != kNoChart && charts.back != kNoChart;
-            const std::uint32_t material = scene_.triangles[t].material;
-            const bool mirror = scene_.materials[material].isMirror();
-            const auto add = [&](std::uint32_t chart, bool front) {
-                sides[{mirror, material, front, both, chart == kNoChart}].push_back(
-                    {t, chart, front, both});
-            };
-            if (charts.front != kNoChart || charts.back == kNoChart) add(charts.front, true);
-            if (charts.back != kNoChart) add(charts.back, false);
-        }
-        return sides;
-    }
-
     void addBatch(const std::vector<Side>& sides) {
-        const Side& first = sides.front();
-        const Material& material = scene_.material(first.triangle);
-        RoomBatch batch;
-        batch.material = scene_.triangles[first.triangle].material;
-        batch.mirror = first.chart != kNoChart && material.isMirror();
-        batch.cull = first.cull;
-        const float lit = first.chart == kNoChart ? 0 : 1;
-        const bool emits = first.front || material.emitsBothSides;
-        batch.data.diffuse = Vec4(lit * material.diffuse, 0);
-        batch.data.mirror = Vec4(lit * material.mirror, 0);
-        batch.data.emission = Vec4((emits ? lit : 0) * material.emission, 0);
-        batch.data.flags = Vec4(first.cull ? 0 : 1, 0, 0, 0);
-        batch.firstIndex = static_cast<std::uint32_t>(made_.indices.size());
+        RoomBatch batch = batchOf(scene_, sides.front(), made_.indices.size());
         shared_.clear();
         for (const Side& side : sides) addSide(side);
         batch.indexCount = static_cast<std::uint32_t>(made_.indices.size()) - batch.firstIndex;

@@ -26,10 +26,8 @@ ObjectLights::ObjectLights() : vertexTexture_(makeTexture(GL_TEXTURE_BUFFER)) {
 }
 
 ObjectLights::Shown ObjectLights::shownOf(const LitObject& object) {
-    if (object.texels)
-        return {0, object.atlas->width, object.atlas->height, object.atlas->irradiance.data(),
-                object.version};
-    return {object.vertexIrradiance.size(), 0, 0, object.vertexIrradiance.data(), object.version};
+    if (object.texels) return {0, object.atlas->width, object.atlas->height, object.version};
+    return {object.vertexIrradiance.size(), 0, 0, object.version};
 }
 
 void ObjectLights::update(std::span<const LitObject> objects) {
@@ -39,22 +37,23 @@ void ObjectLights::update(std::span<const LitObject> objects) {
         wanted_.size() != shown_.size() ||
         !std::equal(wanted_.begin(), wanted_.end(), shown_.begin(),
                     [](const Shown& a, const Shown& b) { return a.sameSize(b); });
-    std::swap(wanted_, shown_);
-    if (rearranged) arrange();
+    if (rearranged) {
+        shown_.clear();
+        arrange();
+    }
     for (std::size_t i = 0; i < objects.size(); ++i)
-        if (rearranged || shown_[i].version != wanted_[i].version ||
-            shown_[i].light != wanted_[i].light)
-            load(objects[i], places_[i]);
+        if (rearranged || shown_[i].version != wanted_[i].version) load(objects[i], places_[i]);
+    std::swap(wanted_, shown_);
 }
 
 /// Vertices one after the other; atlases on shelves.
 void ObjectLights::arrange() {
-    places_.assign(shown_.size(), {});
+    places_.assign(wanted_.size(), {});
     std::size_t vertices = 0;
     std::uint32_t width = kLeastWidth, x = 0, y = 0, shelf = 0;
-    for (const Shown& s : shown_) width = std::max(width, s.width);
-    for (std::size_t i = 0; i < shown_.size(); ++i) {
-        const Shown& s = shown_[i];
+    for (const Shown& s : wanted_) width = std::max(width, s.width);
+    for (std::size_t i = 0; i < wanted_.size(); ++i) {
+        const Shown& s = wanted_[i];
         if (x + s.width > width) {
             y += shelf;
             x = shelf = 0;
@@ -77,13 +76,13 @@ void ObjectLights::arrange() {
 
 void ObjectLights::makeAtlas(std::uint32_t width, std::uint32_t height) {
     if (atlas_ && width <= width_ && height <= height_) return;
-    width_ = height == 0 ? 1 : width;
-    height_ = std::max(height, 1u);
-    if (std::max(width_, height_) > limitOf(GL_MAX_TEXTURE_SIZE))
-        throw InputError("the objects have more texels (" + std::to_string(width_) + " x " +
-                         std::to_string(height_) +
+    if (std::max(width, height) > limitOf(GL_MAX_TEXTURE_SIZE))
+        throw InputError("the objects have more texels (" + std::to_string(width) + " x " +
+                         std::to_string(height) +
                          ") than a texture of this GPU; light them more coarsely, or render with "
                          "--backend cpu");
+    width_ = height == 0 ? 1 : width;
+    height_ = std::max(height, 1u);
     atlas_ = makeTexture(GL_TEXTURE_2D);
     glTextureStorage2D(atlas_.id(), 1, GL_RGB9_E5, static_cast<GLsizei>(width_),
                        static_cast<GLsizei>(height_));

@@ -33,11 +33,10 @@ class ObjectLights {
     std::uint64_t bytes() const;
 
   private:
-    /// What was copied last.
+    /// An object's light.
     struct Shown {
         std::size_t vertices = 0;
         std::uint32_t width = 0, height = 0;
-        const void* light = nullptr;
         std::uint64_t version = 0;
 
         bool sameSize(const Shown& o) const {
@@ -50,7 +49,7 @@ class ObjectLights {
     void makeAtlas(std::uint32_t width, std::uint32_t height);
     void load(const LitObject& object, const Place& place);
 
-    std::vector<Shown> shown_, wanted_;
+    std::vector<Shown> shown_, wanted_;  ///< copied last and to be copied
     std::vector<Place> places_;
     std::vector<std::uint32_t> packed_;
     Buffer vertexLight_;

@@ -51,9 +51,8 @@ std::size_t ObjectMeshes::find(const LitObject& object) const {
     return i;
 }
 
-bool ObjectMeshes::update(const DynamicRoom& room, HitBuffers& hits) {
+void ObjectMeshes::update(const DynamicRoom& room, HitBuffers& hits) {
     const auto objects = room.litObjects();
-    bool changed = false;
     meshOf_.resize(objects.size());
     used_.assign(meshes_.size(), false);
     for (std::size_t o = 0; o < objects.size(); ++o) {
@@ -62,7 +61,7 @@ bool ObjectMeshes::update(const DynamicRoom& room, HitBuffers& hits) {
             meshes_.push_back(std::make_unique<GpuObjectMesh>(
                 room.object(room.litNumbers()[o]).model, objects[o]));
             used_.push_back(true);
-            changed = true;
+            stale_ = true;
         }
         used_[meshOf_[o]] = true;
     }
@@ -70,10 +69,9 @@ bool ObjectMeshes::update(const DynamicRoom& room, HitBuffers& hits) {
         if (used_[m]) continue;
         meshes_.erase(meshes_.begin() + static_cast<std::ptrdiff_t>(m));
         for (std::size_t& of : meshOf_) of -= of > m ? 1 : 0;
-        changed = true;
+        stale_ = true;
     }
-    if (changed) reload(hits);
-    return changed;
+    if (stale_) reload(hits);
 }
 
 void ObjectMeshes::reload(HitBuffers& hits) {
@@ -81,6 +79,7 @@ void ObjectMeshes::reload(HitBuffers& hits) {
     for (const auto& m : meshes_) geometries.push_back(&m->geometry);
     const std::vector<BodyPlace> places = hits.loadObjects(geometries);
     for (std::size_t m = 0; m < meshes_.size(); ++m) meshes_[m]->body = places[m];
+    stale_ = false;
 }
 
 std::uint64_t ObjectMeshes::bytes() const {

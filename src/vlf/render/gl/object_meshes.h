@@ -39,9 +39,9 @@ struct GpuObjectMesh {
 
 class ObjectMeshes {
   public:
-    /// Those of the room's lit objects and no others; `hits` holds their hierarchies then. Returns
-    /// whether any came or went. Throws as makeObjectGeometry and HitBuffers::loadObjects.
-    bool update(const DynamicRoom& room, HitBuffers& hits);
+    /// Those of the room's lit objects and no others; `hits` holds their hierarchies then. Throws
+    /// as makeObjectGeometry and HitBuffers::loadObjects; the next call tries again.
+    void update(const DynamicRoom& room, HitBuffers& hits);
 
     /// Puts the hierarchies into other buffers, or into those that have a room now.
     void reload(HitBuffers& hits);
@@ -59,6 +59,7 @@ class ObjectMeshes {
     std::vector<std::unique_ptr<GpuObjectMesh>> meshes_;
     std::vector<std::size_t> meshOf_;
     std::vector<bool> used_;
+    bool stale_ = false;  ///< the hierarchies are not those of the meshes
 };
 
 }  // namespace vlf::gl

@@ -112,7 +112,6 @@ void ObjectPass::loadRecords() {
 
 void ObjectPass::setChange(const ChangedLight& change) {
     data_.tolerance.x = change.tolerance();
-    data_.counts.y = static_cast<int>(change.receivers().size());
     std::copy(change.receivers().begin(), change.receivers().end(), data_.receivers);
     data_.gridOrigin = change.grid().origin();
     data_.gridScale = change.grid().scale();

@@ -15,7 +15,7 @@ void ObjectStage::update(const DynamicRoom& room) {
 }
 
 void ObjectStage::drawShadows(const std::function<void()>& drawRoom) {
-    if (shadows_.empty()) return;
+    if (!shadows_.stale()) return;
     const GLuint room = shaders_.program("shadow", {});
     const GLuint object = shaders_.program("shadow", {{"OBJECT", "1"}});
     objects_.bind();

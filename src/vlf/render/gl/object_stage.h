@@ -26,7 +26,10 @@ class ObjectStage {
     void update(const DynamicRoom& room);
 
     /// The light of the room is another one, or shaders are.
-    void outdate() { probesStale_ = true; }
+    void outdate() {
+        probesStale_ = true;
+        shadows_.outdate();
+    }
 
     bool empty() const { return objects_.empty(); }
     HitBuffers& hits() { return hits_; }

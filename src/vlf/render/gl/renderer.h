@@ -49,7 +49,7 @@ struct GpuMemory {
     std::uint64_t geometry = 0, atlas = 0, radiance = 0, textures = 0;
     std::uint64_t hits = 0;      ///< of traced reflections, once they have been drawn
     std::uint64_t drawings = 0;  ///< of modes wireframe and diagram, likewise
-    std::uint64_t objects = 0;   ///< but for what is in `hits`
+    std::uint64_t objects = 0;   ///< once there are any, but for what is in `hits`
     std::uint64_t radianceElements = 0;
 
     std::uint64_t total() const {

@@ -1,22 +1,13 @@
 #include "vlf/render/gl/room_geometry.h"
 
 #include "vlf/render/gl/octahedron.h"
+#include "vlf/render/gl/side_batches.h"
 
-#include <map>
-#include <tuple>
 #include <unordered_map>
 
 namespace vlf {
 
 namespace {
-
-/// One side of a triangle.
-struct Side {
-    std::uint32_t triangle;
-    std::uint32_t chart;
-    bool front;
-    bool cull;
-};
 
 class GeometryMaker {
   public:
@@ -29,45 +20,14 @@ class GeometryMaker {
     }
 
     RoomGeometry make() {
-        for (const auto& [key, sides] : sortSides()) addBatch(sides);
+        for (const auto& sides : sortSides(scene_, field_.triangleCharts)) addBatch(sides);
         return std::move(room_);
     }
 
   private:
-    // Mirrors last; otherwise what shares its state stays together.
-    using Key = std::tuple<bool, std::uint32_t, bool, bool, bool>;
-
-    std::map<Key, std::vector<Side>> sortSides() const {
-        std::map<Key, std::vector<Side>> sides;
-        for (std::uint32_t t = 0; t < scene_.triangles.size(); ++t) {
-            const TriangleCharts& charts = field_.triangleCharts[t];
-            const bool both = charts.front != kNoChart && charts.back != kNoChart;
-            const auto add = [&](std::uint32_t chart, bool front) {
-                const std::uint32_t material = scene_.triangles[t].material;
-                const bool mirror = chart != kNoChart && scene_.materials[material].isMirror();
-                sides[{mirror, material, front, both, chart == kNoChart}].push_back(
-                    {t, chart, front, both});
-            };
-            if (charts.front != kNoChart || charts.back == kNoChart) add(charts.front, true);
-            if (charts.back != kNoChart) add(charts.back, false);
-        }
-        return sides;
-    }
-
     void addBatch(const std::vector<Side>& sides) {
-        const Side& first = sides.front();
-        const Material& material = scene_.material(first.triangle);
-        RoomBatch batch;
-        batch.material = scene_.triangles[first.triangle].material;
-        batch.mirror = first.chart != kNoChart && material.isMirror();
-        batch.cull = first.cull;
-        const bool emits = first.front || material.emitsBothSides;
-        const float lit = first.chart == kNoChart ? 0 : 1;
-        batch.data.diffuse = Vec4(lit * material.diffuse, 0);
-        batch.data.mirror = Vec4(lit * material.mirror, 0);
-        batch.data.emission = Vec4((emits ? lit : 0) * material.emission, 0);
-        batch.data.flags = Vec4(first.cull ? 0 : 1, room_.mirrorTriangles.size(), 0, 0);
-        batch.firstIndex = static_cast<std::uint32_t>(room_.indices.size());
+        RoomBatch batch = batchOf(scene_, sides.front(), room_.indices.size());
+        batch.data.flags.y = static_cast<float>(room_.mirrorTriangles.size());
         shared_.clear();
         for (const Side& side : sides) addSide(side, batch.mirror);
         batch.indexCount = static_cast<std::uint32_t>(room_.indices.size()) - batch.firstIndex;

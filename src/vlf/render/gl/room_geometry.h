@@ -17,8 +17,8 @@ struct RoomVertex {
     std::array<std::int16_t, 2> geometricNormal{};  ///< octahedral, as the next; of mirrors only
     std::array<std::int16_t, 2> mirrorNormal{};     ///< about which the mirror reflects
     Vec2 uv{0};                                     ///< of textures, v downwards
-    Vec2 atlasUv{0};                                ///< in [0, 1]²
-    std::uint32_t mirror = 0;                       ///< index into RoomGeometry::mirrorCharts
+    Vec2 atlasUv{0};                                ///< in [0, 1]²; as ObjectGeometry says
+    std::uint32_t mirror = 0;  ///< index into RoomGeometry::mirrorCharts; likewise
 };
 static_assert(sizeof(RoomVertex) == 40);
 

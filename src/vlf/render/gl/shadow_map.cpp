@@ -78,7 +78,7 @@ void ShadowMap::require(int size) {
 void ShadowMap::draw(GLuint roomProgram, GLuint objectProgram,
                      const std::function<void()>& drawRoom,
                      const std::function<void(std::size_t)>& drawObject) {
-    if (!std::exchange(stale_, false)) return;
+    stale_ = false;
     require(wantedSize_);
     glNamedBufferSubData(buffer_.id(), 0, sizeof data_, &data_);
     glBindBufferBase(GL_UNIFORM_BUFFER, shared::kShadowBlock, buffer_.id());

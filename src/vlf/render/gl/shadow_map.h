@@ -25,11 +25,14 @@ class ShadowMap {
 
     bool empty() const { return casters_.empty(); }
 
-    /// What shaders are told of it; to be called when it is not empty.
-    const shared::ShadowData& data() const { return data_; }
+    /// Whether there is one, and it has to be drawn.
+    bool stale() const { return stale_ && !empty(); }
 
-    /// Draws the map, if it is not up to date: `drawRoom` all triangles of the room but lamps,
-    /// `drawObject` one object; both with the program and its uniforms as they are bound.
+    /// Shaders are others.
+    void outdate() { stale_ = true; }
+
+    /// Draws the map, to be called when it is stale: `drawRoom` all triangles of the room but
+    /// lamps, `drawObject` one object; both with the program and its uniforms as they are bound.
     void draw(GLuint roomProgram, GLuint objectProgram, const std::function<void()>& drawRoom,
               const std::function<void(std::size_t)>& drawObject);
 
@@ -45,7 +48,7 @@ class ShadowMap {
     std::vector<Caster> casters_;
     shared::ShadowData data_{};
     int wantedSize_ = 0, size_ = 0;
-    bool stale_ = false;
+    bool stale_ = true;
     Buffer buffer_;
     TextureObject map_, depth_;
     Framebuffer framebuffer_;

@@ -1,4 +1,4 @@
-// The objects in the room, from the records of object_records.h.
+// The objects in the room, from their records (kObjectTexels).
 #include "objects_block.glsl"
 
 layout(binding = kVertexLightUnit) uniform samplerBuffer vertexLight;

@@ -18,7 +18,7 @@ VLF_INT kPositionAttribute = 0;
 VLF_INT kGeometricNormalAttribute = 1;  // octahedral
 VLF_INT kUvAttribute = 2;
 VLF_INT kAtlasUvAttribute = 3;
-VLF_INT kMirrorAttribute = 4;  // number of the mirror chart
+VLF_INT kMirrorAttribute = 4;  // number of the mirror chart; of objects, of the vertex
 VLF_INT kMirrorNormalAttribute = 5;
 
 // Texture units.
@@ -131,7 +131,7 @@ struct ShadowData {
 // Of all objects.
 struct ObjectsData {
     vec4 sphere;     // around all of them: centre, radius
-    ivec4 counts;    // objects, receivers
+    ivec4 counts;    // x: objects
     vec4 tolerance;  // metres between a surface and where the radiance field tells it
     vec4 gridOrigin;
     vec4 gridScale;  // cells a metre
