@@ -1,18 +1,23 @@
-// delta_table ROOM.vlf [--size METRES] [--at X,Y,Z] [--frames N] [--high]
-// A white cube moved about in a baked room: time of an update, and its light against a new bake
-// with the cube as a part of the room.
+// delta_table ROOM.vlf [options]
+// A white cube moved about in a baked room: time and memory of an update, and its light against a
+// new bake with the cube as a part of the room.
 
-#include "vlf/base/parallel.h"
 #include "vlf/dynamic/dynamic_room.h"
 #include "vlf/dynamic/posed_scene.h"
 #include "vlf/io/field_file.h"
 #include "vlf/propagate/bake.h"
 #include "vlf/scene/generate/primitives.h"
 
+#include <unistd.h>
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
-#include <cstring>
+#include <fstream>
+#include <span>
 #include <string>
+#include <vector>
 
 namespace {
 
@@ -23,32 +28,53 @@ double milliseconds(Clock::time_point since) {
     return std::chrono::duration<double, std::milli>(Clock::now() - since).count();
 }
 
+/// Resident, of the process.
+double megabytes() {
+    std::size_t size = 0, resident = 0;
+    std::ifstream("/proc/self/statm") >> size >> resident;
+    return 1e-6 * static_cast<double>(resident * static_cast<std::size_t>(sysconf(_SC_PAGESIZE)));
+}
+
 struct Options {
     std::string file;
     float size = 0.1f;
-    Vec3 at{0};
-    bool placed = false;
+    std::vector<float> at;
     int frames = 60;
-    ObjectSettings settings;
-    Vec3 colour{0.8f};
+    std::string shadow = "field";
+    bool flat = false;
+    int subdivision = -1;
 };
 
-DynamicObject makeCube(const Options& o) {
+ObjectSettings settingsOf(const Options& o) {
+    ObjectSettings settings;
+    settings.shadow = o.shadow == "none"   ? ShadowKind::none
+                      : o.shadow == "soft" ? ShadowKind::soft
+                                           : ShadowKind::field;
+    if (o.flat) settings.shading = Shading::flat;
+    if (o.subdivision >= 0) {
+        settings.gather.points = GatherPoints::vertices;
+        settings.gather.subdivision = o.subdivision;
+    }
+    return settings;
+}
+
+DynamicObject makeCube(const Options& o, const Vec3& at) {
     Material material;
-    material.diffuse = o.colour;
+    material.diffuse = Vec3(0.8f);
     DynamicObject cube;
     cube.model = std::make_shared<ObjectModel>(makePrimitive("cube", material));
     cube.pose.scale = o.size;
-    cube.pose.translation = o.at;
-    cube.settings = o.settings;
+    cube.pose.translation = at;
+    cube.settings = settingsOf(o);
     return cube;
 }
 
-void measureTimes(DynamicRoom& room, const Options& o) {
+void measureTimes(DynamicRoom& room, int frames) {
+    const Pose home = room.object(0).pose;
     double sum = 0, least = 1e9;
-    for (int i = 0; i < o.frames; ++i) {
-        Pose pose = room.object(0).pose;
-        pose.translation = o.at + 0.05f * Vec3(std::sin(0.3f * i), 0, std::cos(0.3f * i));
+    for (int i = 0; i < frames; ++i) {
+        Pose pose = home;
+        pose.translation += 0.05f * Vec3(std::sin(0.3f * i), 0, std::cos(0.3f * i));
         room.setPose(0, pose);
         const auto start = Clock::now();
         room.update();
@@ -56,13 +82,11 @@ void measureTimes(DynamicRoom& room, const Options& o) {
         sum += t;
         least = std::min(least, t);
     }
-    std::printf("update: %.2f ms mean, %.2f ms least; ", sum / o.frames, least);
+    std::printf("update: %.2f ms mean, %.2f ms least; ", sum / frames, least);
     const UpdateTimes& t = room.updateTimes();
     std::printf("the last: place %.2f look %.2f shadows %.2f exchange %.2f ms\n", 1e3 * t.place,
                 1e3 * t.look, 1e3 * t.shadows, 1e3 * t.exchange);
-    Pose pose = room.object(0).pose;
-    pose.translation = o.at;
-    room.setPose(0, pose);
+    room.setPose(0, home);
     room.update();
 }
 
@@ -77,22 +101,43 @@ BakeParams paramsOf(const BakeRecord& r) {
     return p;
 }
 
+/// Of texels, by area; luminance of irradiance.
 struct Sums {
-    double error = 0, truth = 0, change = 0, changeError = 0, area = 0, bias = 0, changeSum = 0;
+    double error2 = 0, truth2 = 0, change2 = 0, error = 0, change = 0, area = 0;
+
+    void add(double area_, double without, double mine, double truth) {
+        error2 += area_ * (mine - truth) * (mine - truth);
+        truth2 += area_ * truth * truth;
+        change2 += area_ * (truth - without) * (truth - without);
+        error += area_ * (mine - truth);
+        change += area_ * (truth - without);
+        area += area_;
+    }
+    void print(const char* name) const {
+        std::printf(
+            "%-22s relRMSE %.3f %%  error / change %.3f  (flux: change %+.4f W, off by %+.4f)"
+            "  %.2f m2\n",
+            name, 100 * std::sqrt(error2 / truth2), std::sqrt(error2 / change2), change, error,
+            area);
+    }
 };
 
-void compare(const BakedRoom& baked, const DynamicRoom& room) {
-    const DynamicObject object = room.object(0);
-    const Scene posed = posedScene(baked.scene, {&object, 1});
-    Progress progress;
-    const auto start = Clock::now();
-    const LightField truth = bake(posed, paramsOf(baked.field.record), progress);
-    std::printf("new bake: %.2f s\n", 1e-3 * milliseconds(start));
-    const RayScene rays(baked.scene);
+/// Whether the object lies on or over a texel: its light is of no interest.
+bool isCovered(const Scene& scene, std::span<const SurfacePoint> points, const Vec3& normal,
+               const RayScene& posedRays, const Pose& pose) {
+    return std::any_of(points.begin(), points.end(), [&](const SurfacePoint& p) {
+        const Vec3 from = positionAt(scene, p.triangle, p.barycentric);
+        const Ray up{from + 1e-4f * normal, normal, 0, 2e-3f};
+        return posedRays.closest(up) || maxComponent(glm::abs(pose.inversePoint(from))) < 0.51f;
+    });
+}
+
+void compareRoom(const BakedRoom& baked, const DynamicRoom& room, const Scene& posed,
+                 const LightField& truth) {
+    const RayScene rays(baked.scene), posedRays(posed);
     const Unwrap unwrap =
         restoreUnwrap(baked.scene, rays, baked.field.charts, baked.field.triangleCharts,
                       {baked.field.atlas.width, baked.field.atlas.height});
-    const RayScene objectRays(posed);
     Sums all, floor, changed;
     for (std::size_t i = 0; i < unwrap.texels.size(); ++i) {
         const SurfacePoint& p = unwrap.points.of(i)[0];
@@ -103,48 +148,30 @@ void compare(const BakedRoom& baked, const DynamicRoom& room) {
         const Chart& own = baked.field.charts[unwrap.texelChart[i]];
         const Chart& other = truth.charts[c];
         if (own.width != other.width || own.height != other.height) continue;
+        if (isCovered(baked.scene, unwrap.points.of(i), own.normal, posedRays, room.object(0).pose))
+            continue;
         const std::uint32_t x = unwrap.texels[i] % unwrap.atlasWidth - own.x;
         const std::uint32_t y = unwrap.texels[i] / unwrap.atlasWidth - own.y;
-        const double t = luminance(truth.atlas.at(other.x + x, other.y + y));
-        const double s = luminance(baked.field.atlas.irradiance[unwrap.texels[i]]);
-        const double d = luminance(room.irradiance().irradiance[unwrap.texels[i]]);
-        // Texels under the object are of no interest.
-        bool covered = false;
-        const Vec3 n = own.normal;
-        for (const SurfacePoint& q : unwrap.points.of(i)) {
-            const Vec3 from = positionAt(baked.scene, q.triangle, q.barycentric);
-            covered |= objectRays.closest({from + 1e-4f * n, n, 0, 2e-3f}).triangle != kNoTriangle;
-            const Vec3 local = glm::abs(object.pose.inversePoint(from));
-            covered |= maxComponent(local) < 0.51f;
-        }
-        if (covered) continue;
-        const double a = unwrap.texelArea(i);
-        const auto add = [&](Sums& sums) {
-            sums.error += a * (d - t) * (d - t);
-            sums.truth += a * t * t;
-            sums.change += a * (t - s) * (t - s);
-            sums.bias += a * (d - t);
-            sums.changeSum += a * (t - s);
-            sums.area += a;
-        };
-        add(all);
-        if (n.y > 0.99f && positionAt(baked.scene, p.triangle, p.barycentric).y < 0.01f) add(floor);
-        if (std::abs(t - s) > 0.02 * s) add(changed);
+        const double with = luminance(truth.atlas.at(other.x + x, other.y + y));
+        const double without = luminance(baked.field.atlas.irradiance[unwrap.texels[i]]);
+        const double mine = luminance(room.irradiance().irradiance[unwrap.texels[i]]);
+        const double area = unwrap.texelArea(i);
+        all.add(area, without, mine, with);
+        if (own.normal.y > 0.99f && positionAt(baked.scene, p.triangle, p.barycentric).y < 0.01f)
+            floor.add(area, without, mine, with);
+        if (std::abs(with - without) > 0.02 * without) changed.add(area, without, mine, with);
     }
-    const auto print = [](const char* name, const Sums& s) {
-        std::printf(
-            "%-22s relRMSE %.3f %%  error / change %.3f  (flux: change %+.4f W, off by %+.4f)"
-            "  %.2f m2\n",
-            name, 100 * std::sqrt(s.error / s.truth), std::sqrt(s.error / s.change), s.changeSum,
-            s.bias, s.area);
-    };
-    print("whole room", all);
-    print("floor", floor);
-    print("changed by over 2 %", changed);
-    // Faces of the cube, by triangles of equal normal: mean irradiance.
+    all.print("whole room");
+    floor.print("floor");
+    changed.print("changed by over 2 %");
+}
+
+/// Mean irradiance of the cube's faces, two triangles each.
+void compareFaces(const DynamicRoom& room, const Scene& posed, const LightField& truth) {
     const LitObject& lit = room.litObjects()[0];
-    const auto firstTriangle = static_cast<std::uint32_t>(baked.scene.triangles.size());
-    for (std::uint32_t face = 0; face < lit.mesh->scene.triangles.size(); face += 2) {
+    const auto triangles = static_cast<std::uint32_t>(lit.mesh->scene.triangles.size());
+    const auto first = static_cast<std::uint32_t>(posed.triangles.size()) - triangles;
+    for (std::uint32_t face = 0; face < triangles; face += 2) {
         Vec3 mine(0), theirs(0);
         int count = 0;
         for (std::uint32_t k = face; k < face + 2; ++k)
@@ -152,56 +179,57 @@ void compare(const BakedRoom& baked, const DynamicRoom& room) {
                 for (int j = 0; i + j < 20; ++j, ++count) {
                     const Vec2 b((i + 0.33f) / 20, (j + 0.33f) / 20);
                     mine += lit.irradiance(k, b, true);
-                    const std::uint32_t c = truth.triangleCharts[firstTriangle + k].front;
+                    const std::uint32_t c = truth.triangleCharts[first + k].front;
                     if (c == kNoChart) continue;
-                    const Vec3 p = positionAt(posed, firstTriangle + k, b);
+                    const Vec3 p = positionAt(posed, first + k, b);
                     theirs +=
                         truth.atlas.sample(truth.charts[c], truth.charts[c].texelCoordinates(p));
                 }
-        const Vec3 n = geometricNormal(posed, firstTriangle + face);
+        const Vec3 n = geometricNormal(posed, first + face);
         std::printf("face (%+.0f %+.0f %+.0f): E %.4f, new bake %.4f: %+.2f %%\n", n.x, n.y, n.z,
                     luminance(mine) / count, luminance(theirs) / count,
                     100 * (luminance(mine) / luminance(theirs) - 1));
     }
 }
 
+void compare(const BakedRoom& baked, const DynamicRoom& room) {
+    const DynamicObject object = room.object(0);
+    const Scene posed = posedScene(baked.scene, {&object, 1});
+    Progress progress;
+    const auto start = Clock::now();
+    const LightField truth = bake(posed, paramsOf(baked.field.record), progress);
+    std::printf("new bake: %.2f s\n", 1e-3 * milliseconds(start));
+    compareRoom(baked, room, posed, truth);
+    compareFaces(room, posed, truth);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
     Options o;
-    for (int i = 1; i < argc; ++i) {
-        const std::string a = argv[i];
-        const auto next = [&] { return std::string(argv[++i]); };
-        if (a == "--size")
-            o.size = std::stof(next());
-        else if (a == "--frames")
-            o.frames = std::stoi(next());
-        else if (a == "--shadow") {
-            const std::string k = next();
-            o.settings.shadow = k == "none"   ? ShadowKind::none
-                                : k == "soft" ? ShadowKind::soft
-                                              : ShadowKind::field;
-        } else if (a == "--flat") {
-            o.settings.shading = Shading::flat;
-        } else if (a == "--vertices") {
-            o.settings.gather.points = GatherPoints::vertices;
-            o.settings.gather.subdivision = std::stoi(next());
-        } else if (a == "--at") {
-            const std::string text = next();
-            o.placed = std::sscanf(text.c_str(), "%f,%f,%f", &o.at.x, &o.at.y, &o.at.z) == 3;
-        } else
-            o.file = a;
-    }
+    CLI::App app{"A white cube moved about in a baked room: time, memory and error of its light"};
+    app.add_option("room", o.file, "a baked room")->required();
+    app.add_option("--size", o.size, "metres");
+    app.add_option("--at", o.at, "x,y,z of its middle")->delimiter(',')->expected(3);
+    app.add_option("--frames", o.frames, "moved ones that are timed");
+    app.add_option("--shadow", o.shadow)->check(CLI::IsMember({"none", "soft", "field"}));
+    app.add_flag("--flat", o.flat, "shading flat: no light is gathered for the cube");
+    app.add_option("--vertices", o.subdivision, "gathers at vertices, subdivided so often");
+    CLI11_PARSE(app, argc, argv);
     const BakedRoom baked = readField(o.file);
-    if (!o.placed) o.at = boundsOf(baked.scene).centre();
+    const Vec3 at = o.at.empty() ? boundsOf(baked.scene).centre() : Vec3(o.at[0], o.at[1], o.at[2]);
     const RayScene rays(baked.scene);
+    const double before = megabytes();
     auto start = Clock::now();
     DynamicRoom room(baked.scene, rays, baked.field);
+    const double ready = megabytes();
     std::printf("making ready: %.1f ms", milliseconds(start));
-    room.add(makeCube(o));
+    room.add(makeCube(o, at));
     start = Clock::now();
     room.update();
     std::printf(", first update: %.1f ms\n", milliseconds(start));
-    if (o.frames > 0) measureTimes(room, o);
+    if (o.frames > 0) measureTimes(room, o.frames);
+    std::printf("memory beyond the field: %.1f MB for the room, %.1f MB more with the cube\n",
+                ready - before, megabytes() - ready);
     compare(baked, room);
 }
