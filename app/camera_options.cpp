@@ -1,5 +1,7 @@
 #include "camera_options.h"
 
+#include "number_within.h"
+
 #include "vlf/base/error.h"
 
 #include <cstdio>
@@ -57,7 +59,7 @@ void addCameraOptions(CLI::App& command, CameraOptions& options) {
     CLI::Option* look = addPoint(command, "--look", options.look, "Look at this point");
     addPoint(command, "--up", options.up, "This direction is up in the picture [0,1,0]");
     command.add_option("--fov", options.verticalFov, "Vertical field of view in degrees")
-        ->check(CLI::Range(0.01, 179.0));
+        ->check(numberWithin(0.01, 179));
     command
         .add_option_function<std::string>(
             "--size",

@@ -1,6 +1,7 @@
 // vlf compare: how far a picture is from a reference.
 
 #include "commands.h"
+#include "number_within.h"
 #include "picture_output.h"
 
 #include "vlf/base/error.h"
@@ -59,10 +60,6 @@ std::vector<std::uint8_t> readMask(const std::string& path, const Image& referen
                                      image.height, reference.width, reference.height));
     for (const Vec3& p : image.pixels) mask.push_back(maxComponent(p) > 0);
     return mask;
-}
-
-float exposureOf(const std::string& text, const Image& reference) {
-    return text == "auto" ? autoExposure(reference) : std::stof(text);
 }
 
 Report compare(const Options& options) {
@@ -157,7 +154,7 @@ void addCompare(CLI::App& app, const Globals& globals) {
         ->transform(CLI::CheckedTransformer(kToneNames))
         ->option_text("clamp|filmic [clamp]");
     command->add_option("--ppd", options->pixelsPerDegree, "Pixels per degree of view, for FLIP")
-        ->check(CLI::Range(1.0, 1000.0))
+        ->check(numberWithin(1, 1000))
         ->capture_default_str();
     command->footer(
         "PNG and JPEG are decoded from sRGB. relMSE and relRMSE compare linear values; PSNR and\n"

@@ -5,6 +5,7 @@
 #include "console.h"
 #include "dynamic_report.h"
 #include "render_options.h"
+#include "stopwatch.h"
 
 #include "vlf/base/error.h"
 #include "vlf/dynamic/posed_scene.h"
@@ -14,7 +15,6 @@
 #include "vlf/io/field_file.h"
 #include "vlf/render/cpu/path_tracer.h"
 
-#include <chrono>
 #include <memory>
 #include <string>
 
@@ -29,12 +29,10 @@ enum class Truth { rebake, path };
 const std::map<std::string, Truth> kTruthNames{{"rebake", Truth::rebake}, {"path", Truth::path}};
 const std::map<std::string, DisplayMode> kComparedModes{{"raytraced", DisplayMode::raytraced},
                                                         {"field", DisplayMode::field}};
-constexpr float kBrightestError = 0.5f;  // of the map: FLIP that is shown brightest
 
 struct Options {
     std::string field;
     ObjectOptions objects;
-    double moment = 0;
     CameraOptions camera;
     DisplayMode mode = DisplayMode::raytraced;
     int antialias = 4;
@@ -45,10 +43,6 @@ struct Options {
     std::string output, json;
     std::string exposure = "auto";
 };
-
-double secondsSince(std::chrono::steady_clock::time_point start) {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
 
 /// One comparison, step by step.
 class Comparison {
@@ -61,7 +55,7 @@ class Comparison {
           objects_(room_.scene, rays_, room_.field) {
         if (scenario_.objects.empty()) throw InputError(options.objects.scenario + ": no objects");
         for (const ScenarioObject& object : scenario_.objects) objects_.add(object.object);
-        moveTo(objects_, scenario_, options.moment);
+        moveTo(objects_, scenario_, options.objects.moment);
         still_.camera =
             chooseCamera(options.camera, room_.scene.cameras, defaultCamera(room_.scene));
         still_.width = options.camera.width, still_.height = options.camera.height;
@@ -70,16 +64,16 @@ class Comparison {
     }
 
     DynamicReport run(Progress& progress) {
-        const auto start = std::chrono::steady_clock::now();
         progress.stage("objects");
+        const Stopwatch lighting;
         objects_.update();
-        report_.updateSeconds = secondsSince(start);
+        report_.updateSeconds = lighting.seconds();
         still_.objects = &objects_;
         dynamic_ = renderStill(room_.scene, rays_, room_.field, still_, progress);
         still_.objects = nullptr;
-        const auto truthStart = std::chrono::steady_clock::now();
+        const Stopwatch truth;
         truth_ = options_.truth == Truth::path ? tracePaths(progress) : bakeAgain(progress);
-        report_.truthSeconds = secondsSince(truthStart);
+        report_.truthSeconds = truth.seconds();
         compare();
         return report_;
     }
@@ -101,9 +95,7 @@ class Comparison {
 
   private:
     Image tracePaths(Progress& progress) {
-        std::vector<DynamicObject> objects;
-        for (std::size_t i = 0; i < objects_.size(); ++i) objects.push_back(objects_.object(i));
-        const Scene posed = posedScene(room_.scene, objects);
+        const Scene posed = posedScene(room_.scene, objectsAt(scenario_, options_.objects.moment));
         PathTraceParams params;
         params.camera = still_.camera;
         params.width = still_.width, params.height = still_.height;
@@ -130,8 +122,7 @@ class Comparison {
     }
 
     void compare() {
-        report_.exposure =
-            options_.exposure == "auto" ? autoExposure(truth_) : std::stof(options_.exposure);
+        report_.exposure = exposureOf(options_.exposure, truth_);
         report_.relMse = relativeMse(dynamic_, truth_);
         report_.flip = flip(toneMap(dynamic_, report_.exposure, ToneCurve::filmic),
                             toneMap(truth_, report_.exposure, ToneCurve::filmic));
@@ -149,8 +140,18 @@ class Comparison {
     DynamicReport report_;
 };
 
-void run(const Options& options, const Globals& globals) {
+/// Throws a usage error (CLI::Error) if options that were given do not go together.
+void requireConsistent(const CLI::App& command, const CLI::Option_group& quality,
+                       const Options& options) {
     if (!options.objects.any()) throw CLI::RequiredError("--object or --scenario");
+    if (options.truth != Truth::path && command.count("--spp") > 0)
+        throw CLI::ValidationError("--spp", "needs --truth path");
+    if (options.truth == Truth::path && quality.count_all() > 0)
+        throw CLI::ValidationError("--truth path",
+                                   "bakes nothing: leave out --preset and what goes with it");
+}
+
+void run(const Options& options, const Globals& globals) {
     requireWritableOutputs({options.output, options.json});
     Comparison comparison(options, globals);
     DynamicReport report;
@@ -175,11 +176,7 @@ void run(const Options& options, const Globals& globals) {
 void addComparisonOptions(CLI::App& command, Options& options) {
     command.add_option("field", options.field, "Field file (.vlf)")->required()->type_name("FIELD");
     addObjectOptions(command, options.objects);
-    command.add_option("--moment", options.moment, "Of the scenario [0]")
-        ->check(CLI::Range(0.0, 86400.0))
-        ->type_name("SECONDS")
-        ->group("Objects")
-        ->needs("--scenario");
+    addMomentOption(command, options.objects);
     addCameraOptions(command, options.camera);
     command.add_option("--mode", options.mode, "How both pictures are made")
         ->transform(CLI::CheckedTransformer(kComparedModes))
@@ -233,7 +230,8 @@ void addCompareDynamic(CLI::App& app, const Globals& globals) {
         "  vlf compare-dynamic room.vlf --object cube:0.3:red@1,0.15,2 -o sheet.png\n"
         "  vlf compare-dynamic room.vlf --scenario walk.json --moment 2.5 --json report.json\n"
         "  vlf compare-dynamic room.vlf --object sphere:mirror --mode field --truth path");
-    command->callback([command, options, &globals] {
+    command->callback([command, quality, options, &globals] {
+        requireConsistent(*command, *quality, *options);
         options->preset = command->count("--preset") > 0;
         run(*options, globals);
     });

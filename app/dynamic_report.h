@@ -12,6 +12,9 @@
 
 namespace vlf::app {
 
+/// Of maps of the error: FLIP that is shown brightest.
+inline constexpr float kBrightestError = 0.5f;
+
 struct DynamicReport {
     double updateSeconds = 0;  ///< lighting the objects
     double truthSeconds = 0;

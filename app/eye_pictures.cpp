@@ -22,11 +22,10 @@ std::vector<Image> renderEyes(RoomRenderer& renderer, const StillParams& params,
 }
 
 float exposureOf(const PictureOptions& options, const std::vector<Image>& radiance) {
-    if (options.exposure != "auto") return std::stof(options.exposure);
     Image all;
     for (const Image& image : radiance)
         all.pixels.insert(all.pixels.end(), image.pixels.begin(), image.pixels.end());
-    return autoExposure(all);
+    return exposureOf(options.exposure, all);
 }
 
 std::vector<Image> develop(const PictureOptions& options, float exposure, StereoLayout layout,

@@ -3,6 +3,7 @@
 #include "console.h"
 #include "eye_pictures.h"
 #include "frame_output.h"
+#include "stopwatch.h"
 
 #include "vlf/base/error.h"
 #include "vlf/display/camera_path_file.h"
@@ -10,7 +11,6 @@
 #include "vlf/display/time_statistics.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <memory>
 
@@ -22,11 +22,6 @@ namespace vlf::app {
 namespace {
 
 constexpr double kSameMoment = 1e-6;  // frames; rounding of times and rates
-
-double millisecondsSince(std::chrono::steady_clock::time_point start) {
-    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
-        .count();
-}
 
 /// The work on one of many frames, told as a part of the whole.
 class PartProgress : public Progress {
@@ -119,21 +114,21 @@ class FilmMaker {
     }
 
     FrameRecord makeFrame(int frame, float exposure, FrameOutput& output, Progress& progress) {
-        const auto start = std::chrono::steady_clock::now();
+        const Stopwatch watch;
         FrameRecord record;
         record.pathSeconds = frame / options_.film.fps;
         record.pose = path_.at(record.pathSeconds);
         renderer_.moveTo(record.pathSeconds);
-        const double moved = millisecondsSince(start);
+        const double moved = watch.milliseconds();
         StillReport report;
         std::vector<Image> eyes =
             renderEyes(renderer_, still(record.pathSeconds), options_.stereo, progress, report);
-        record.cpuMs = millisecondsSince(start);
+        record.cpuMs = watch.milliseconds();
         const std::vector<Image> pictures =
             develop(picture_, exposure, options_.stereo.layout, std::move(eyes));
-        const double developed = millisecondsSince(start);
+        const double developed = watch.milliseconds();
         output.add(frame, pictures);
-        record.totalMs = millisecondsSince(start);
+        record.totalMs = watch.milliseconds();
         record.passMs = {moved, developed - record.cpuMs, record.totalMs - developed};
         return record;
     }
@@ -144,7 +139,7 @@ class FilmMaker {
     PictureOptions picture_;
 };
 
-TimeStatistics statisticsOf(const FrameLog& log, double FrameRecord::*time) {
+TimeStatistics statisticsOf(const FrameLog& log, double FrameRecord::* time) {
     std::vector<double> times;
     for (const FrameRecord& frame : log.frames()) times.push_back(frame.*time);
     return vlf::statisticsOf(std::move(times));
@@ -162,7 +157,7 @@ nlohmann::ordered_json toJson(const TimeStatistics& ms) {
 
 nlohmann::ordered_json renderFilm(const RenderOptions& options, const Globals& globals,
                                   RoomRenderer& renderer, const std::vector<Camera>& cameras) {
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch watch;
     FilmMaker maker(options, renderer,
                     options.film.tour ? tour(cameras) : readCameraPath(options.film.path));
     const FrameRange frames = framesToShow(options.film, maker.duration());
@@ -174,7 +169,7 @@ nlohmann::ordered_json renderFilm(const RenderOptions& options, const Globals& g
     const FrameLog log = maker.make(frames, exposure, *output, progress);
     if (!options.film.log.empty()) log.write(options.film.log);
 
-    const double seconds = 1e-3 * millisecondsSince(start);
+    const double seconds = watch.seconds();
     const TimeStatistics total = statisticsOf(log, &FrameRecord::totalMs);
     if (!globals.quiet)
         fmt::print(

@@ -1,6 +1,7 @@
 #include "object_options.h"
 
 #include "console.h"
+#include "number_within.h"
 
 #include "vlf/base/error.h"
 #include "vlf/dynamic/object_names.h"
@@ -191,6 +192,14 @@ void addObjectOptions(CLI::App& command, ObjectOptions& options) {
     addNamed(command, "--shadow", options.defaults.shadow, kShadowNames,
              "What of their shadow and light the room gets");
     for (const char* name : {"--shading", "--shadow"}) command.get_option(name)->group("Objects");
+}
+
+CLI::Option* addMomentOption(CLI::App& command, ObjectOptions& options) {
+    return command.add_option("--moment", options.moment, "Of the scenario, for stills [0]")
+        ->check(numberWithin(0, 86400))
+        ->type_name("SECONDS")
+        ->group("Objects")
+        ->needs("--scenario");
 }
 
 std::string objectHelp() {

@@ -16,12 +16,16 @@ struct ObjectOptions {
     std::vector<std::string> objects;  ///< see objectHelp
     std::string scenario;              ///< file; empty: none
     ObjectSettings defaults;           ///< of objects, where the scenario does not state them
+    double moment = 0;                 ///< of the scenario, s, that a still shows
 
     bool any() const { return !objects.empty() || !scenario.empty(); }
 };
 
 /// Declares --object, --scenario, --shading and --shadow. `options` must outlive the parsing.
 void addObjectOptions(CLI::App& command, ObjectOptions& options);
+
+/// Declares --moment, which needs --scenario. To be called after addObjectOptions.
+CLI::Option* addMomentOption(CLI::App& command, ObjectOptions& options);
 
 /// How --object is written, for the foot of the help.
 std::string objectHelp();

@@ -33,6 +33,10 @@ std::string exposureProblem(const std::string& text) {
     return "must be auto or a number of EV between -100 and 100";
 }
 
+float exposureOf(const std::string& text, const Image& radiance) {
+    return text == "auto" ? autoExposure(radiance) : std::stof(text);
+}
+
 std::string pictureNameProblem(const std::string& path) {
     const std::string extension = lowerExtension(path);
     return extension == ".exr" || extension == ".png" ? "" : path + " must end in .exr or .png";
@@ -75,9 +79,7 @@ void writeFinished(const std::string& path, const Image& picture,
 void writePicture(const PictureOptions& options, const Image& radiance,
                   const ImageAttributes& attributes) {
     if (writesRadiance(options.path)) return writeExr(options.path, radiance, attributes);
-    const float exposure =
-        options.exposure == "auto" ? autoExposure(radiance) : std::stof(options.exposure);
-    writePng(options.path, toneMap(radiance, exposure, options.tone));
+    writePng(options.path, toneMap(radiance, exposureOf(options.exposure, radiance), options.tone));
 }
 
 std::vector<float> numbers(const Vec3& v) {

@@ -29,6 +29,9 @@ void addPictureOptions(CLI::App& command, PictureOptions& options, bool orReport
 /// Empty if the text is an exposure, else what is wrong with it (a CLI11 validator).
 std::string exposureProblem(const std::string& text);
 
+/// EV: what the text says, or of "auto" what brings the picture to middle grey.
+float exposureOf(const std::string& text, const Image& radiance);
+
 /// Throws FileError if one of the files cannot be written; an empty name is none. To be asked
 /// before long work.
 void requireWritableOutputs(std::initializer_list<std::string> paths);

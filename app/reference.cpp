@@ -3,6 +3,7 @@
 #include "camera_options.h"
 #include "commands.h"
 #include "console.h"
+#include "number_within.h"
 #include "picture_output.h"
 #include "reference_irradiance.h"
 #include "scene_input.h"
@@ -130,9 +131,9 @@ void addLimits(CLI::App& command, Options& options) {
     limits
         ->add_option("--error", options.targetError,
                      "Expected relative error through noise (root of relMSE), e.g. 0.01")
-        ->check(CLI::Range(1e-6, 1e3));
+        ->check(numberWithin(1e-6, 1e3));
     limits->add_option("--max-seconds", options.maxSeconds, "Time for the tracing")
-        ->check(CLI::Range(0.001, 1e9));
+        ->check(numberWithin(0.001, 1e9));
     limits->require_option(1, 0);
 }
 

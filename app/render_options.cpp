@@ -2,6 +2,7 @@
 
 #include "frame_names.h"
 #include "gpu_options.h"
+#include "number_within.h"
 
 #include "vlf/display/frame_log.h"
 
@@ -45,17 +46,6 @@ std::string momentProblem(const std::string& text) {
 
 std::string filmNameProblem(const std::string& path) {
     return path.ends_with(".mp4") ? "" : path + " must end in .mp4";
-}
-
-/// A number in [least, most]; NaN is none.
-CLI::Validator numberWithin(double least, double most) {
-    const auto problem = [least, most](const std::string& text) {
-        double value = 0;
-        if (CLI::detail::lexical_cast(text, value) && value >= least && value <= most)
-            return std::string();
-        return fmt::format("must be a number between {} and {}", least, most);
-    };
-    return {problem, "", "number"};
 }
 
 void addModeOptions(CLI::App& command, StillParams& still) {
@@ -186,13 +176,7 @@ void addRenderOptions(CLI::App& command, RenderOptions& options) {
     addStereoOptions(command, options.stereo);
     addFilmOptions(command, options.film);
     addObjectOptions(command, options.objects);
-    command.add_option("--moment", options.moment, "Of the scenario, for stills [0]")
-        ->check(numberWithin(0, 86400))
-        ->type_name("SECONDS")
-        ->group("Objects")
-        ->needs("--scenario")
-        ->excludes("--path")
-        ->excludes("--tour");
+    addMomentOption(command, options.objects)->excludes("--path")->excludes("--tour");
     command.add_option("--json", options.json, "Write a report to this file");
 }
 

@@ -54,7 +54,6 @@ struct RenderOptions {
     StereoOptions stereo;
     FilmOptions film;
     ObjectOptions objects;
-    double moment = 0;  ///< of the scenario, s, that stills show
     std::string json;
     bool allCameras = false;
     std::vector<std::uint32_t> tile;

@@ -32,7 +32,7 @@ RoomRenderer::RoomRenderer(const RenderOptions& options, const BakedRoom& room,
     if (scenario_.objects.empty()) return;
     objects_.emplace(room.scene, *rays_, room.field);
     for (const ScenarioObject& object : scenario_.objects) objects_->add(object.object);
-    moveTo(options.moment);
+    moveTo(options.objects.moment);
 }
 
 void RoomRenderer::moveTo(double seconds) {

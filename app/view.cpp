@@ -5,6 +5,7 @@
 #include "commands.h"
 #include "console.h"
 #include "gpu_options.h"
+#include "number_within.h"
 #include "object_options.h"
 #include "picture_output.h"
 #include "viewer/display_modes.h"
@@ -185,7 +186,7 @@ void addSessionOptions(CLI::App& command, SessionOptions& session, std::string& 
         ->add_option("--fps", session.fps,
                      "Frames a second of the session's own time, whatever they take: replays are "
                      "then equal, frame by frame")
-        ->check(CLI::Range(1.0, 1000.0))
+        ->check(numberWithin(1, 1000))
         ->type_name("N");
     group->add_option("--log", session.log, "Write every frame's times and pose (.csv or .json)")
         ->check(frameLogNameProblem, "log name")
