@@ -1,5 +1,7 @@
 #include "comparison.h"
 
+#include "dynamic_report.h"
+
 #include "vlf/base/error.h"
 #include "vlf/image/heat_map.h"
 #include "vlf/render/gl/read_framebuffer.h"
@@ -17,30 +19,15 @@ namespace vlf::app {
 namespace {
 
 constexpr int kStrips = 3;
-constexpr float kRest = 0.3f;            // seconds of rest before the error is found
-constexpr float kBrightestError = 0.5f;  // of the map: FLIP that is shown brightest
+constexpr float kRest = 0.3f;  // seconds of rest before the error is found
 constexpr ImU32 kLine = IM_COL32(255, 255, 255, 160);
 
-std::vector<DynamicObject> objectsOf(const Objects& objects) {
-    std::vector<DynamicObject> now;
-    for (std::size_t i = 0; i < objects.size(); ++i) now.push_back(objects.now(i));
-    return now;
-}
-
-/// Whether the objects are where they were; how they are lit is no matter.
-bool samePlaces(const std::vector<DynamicObject>& before, const Objects& objects) {
-    if (before.size() != objects.size()) return false;
-    for (std::size_t i = 0; i < before.size(); ++i) {
-        const DynamicObject& now = objects.now(i);
-        if (before[i].pose != now.pose || before[i].visible != now.visible ||
-            before[i].model != now.model)
-            return false;
-    }
-    return true;
-}
-
-bool sameView(const Camera& a, const Camera& b) {
-    return a.eye == b.eye && a.look == b.look && a.verticalFov == b.verticalFov;
+/// Whether they are where they were; how they are lit is no matter.
+bool samePlaces(const std::vector<DynamicObject>& a, const std::vector<DynamicObject>& b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                      [](const DynamicObject& before, const DynamicObject& now) {
+                          return before.pose == now.pose && before.model == now.model;
+                      });
 }
 
 /// Both rooms are drawn alike, in a mode that needs no rest.
@@ -66,9 +53,9 @@ void label(const std::string& text, float x) {
 void Comparison::next(std::shared_ptr<const BakedRoom> room, const Objects& objects) {
     switch (layout_) {
         case ComparisonLayout::off:
-            if (objects.size() == 0) return say_("there is no object to compare");
+            compared_ = objects.visible();
+            if (compared_.empty()) return say_("there is no object to compare");
             room_ = std::move(room);
-            compared_ = objectsOf(objects);
             baking_ = std::make_unique<Rebake>(room_, compared_);
             layout_ = ComparisonLayout::sideBySide;
             return say_("comparing with the room baked again");
@@ -99,7 +86,7 @@ void Comparison::end() {
 void Comparison::update(const std::shared_ptr<const BakedRoom>& room, const Objects& objects) {
     std::erase_if(ending_, [](const auto& rebake) { return rebake->done(); });
     if (layout_ == ComparisonLayout::off) return;
-    if (room != room_ || !samePlaces(compared_, objects)) {
+    if (room != room_ || !samePlaces(compared_, objects.visible())) {
         end();
         return say_("comparison ended: the room has changed");
     }
@@ -114,9 +101,15 @@ void Comparison::update(const std::shared_ptr<const BakedRoom>& room, const Obje
     }
 }
 
+void Comparison::reloadShaders() {
+    if (truth_) truth_->reloadShaders();
+    seen_.reset();
+}
+
 void Comparison::drawStrip(ShownRoom& room, const Camera& camera, const RenderSettings& settings,
                            int strip) const {
     const int from = width_ * strip / kStrips, to = width_ * (strip + 1) / kStrips;
+    if (from >= to) return;
     View view = viewOf(camera, to - from, height_, room.renderer().nearest());
     view.x = from;
     room.draw(view, settings, 0);
@@ -131,16 +124,13 @@ void Comparison::drawPart(ShownRoom& room, const Camera& camera, const RenderSet
 }
 
 void Comparison::draw(ShownRoom& room, const Camera& camera, const RenderSettings& wanted,
-                      int width, int height, float pointer, std::uint64_t light, float seconds) {
+                      int width, int height, float pointer, float seconds) {
     width_ = width, height_ = height;
     wipe_ = std::clamp(pointer, 0.0f, 1.0f);
     const RenderSettings settings = comparable(room, *truth_, wanted);
-    const bool same =
-        seen_ && sameView(seen_->camera, camera) && seen_->settings.mode == settings.mode &&
-        seen_->settings.exposure == settings.exposure && seen_->settings.tone == settings.tone &&
-        seen_->width == width && seen_->height == height && seen_->light == light;
-    if (!same) {
-        seen_ = Seen{camera, settings, width, height, light};
+    const Seen now{camera, settings, width, height, room.renderer().lightChanges()};
+    if (seen_ != now) {
+        seen_ = now;
         rested_ = 0;
         measured_ = false;
     }
@@ -160,6 +150,7 @@ void Comparison::draw(ShownRoom& room, const Camera& camera, const RenderSetting
 /// Of pictures of the layout's shape.
 void Comparison::measure(ShownRoom& room, const Camera& camera, const RenderSettings& settings) {
     const int width = layout_ == ComparisonLayout::sideBySide ? width_ / kStrips : width_;
+    if (width == 0) return;
     measuredWidth_ = width, measuredHeight_ = height_;
     const auto picture = [&](ShownRoom& of) {
         of.draw(viewOf(camera, width, height_, of.renderer().nearest()), settings, 0);

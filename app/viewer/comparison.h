@@ -4,6 +4,7 @@
 
 #include "objects.h"
 #include "rebake.h"
+#include "seen.h"
 #include "shown_room.h"
 
 #include "vlf/image/flip.h"
@@ -36,17 +37,20 @@ class Comparison {
     void next(std::shared_ptr<const BakedRoom> room, const Objects& objects);
     void end();
 
-    /// Ends if objects have come, gone or moved, or the room is another one; takes what has been
-    /// baked. To be called once a frame.
+    /// Ends if visible objects have come, gone or moved, or the room is another one; takes what has
+    /// been baked. To be called once a frame.
     void update(const std::shared_ptr<const BakedRoom>& room, const Objects& objects);
 
     /// There is a room that was baked again, to be drawn beside the other.
     bool shown() const { return truth_ != nullptr; }
 
     /// Draws both rooms into the window of so many pixels; `pointer` is where the wipe is, in parts
-    /// of its width. `light` is another number whenever objects or room are lit anew.
+    /// of its width. Throws as ShownRoom::draw.
     void draw(ShownRoom& room, const Camera& camera, const RenderSettings& settings, int width,
-              int height, float pointer, std::uint64_t light, float seconds);
+              int height, float pointer, float seconds);
+
+    /// See Renderer::reloadShaders.
+    void reloadShaders();
 
     /// What lies over them, within a frame of the Gui.
     void drawOverlay() const;
@@ -55,13 +59,6 @@ class Comparison {
     std::string status() const;
 
   private:
-    struct Seen {
-        Camera camera;
-        RenderSettings settings;
-        int width = 0, height = 0;
-        std::uint64_t light = 0;
-    };
-
     void drawStrip(ShownRoom& room, const Camera& camera, const RenderSettings& settings,
                    int strip) const;
     void drawPart(ShownRoom& room, const Camera& camera, const RenderSettings& settings, int from,

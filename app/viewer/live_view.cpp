@@ -45,8 +45,12 @@ void LiveView::save() {
     unsaved_ = false;
     saving_ = std::async(std::launch::async, [room, stem = stem_, output = output_]() {
         try {
-            const std::string name = output.empty() ? makeNumberedFile(stem, "vlf") : output;
-            writeField(name, *room);
+            const auto write = [&](const std::string& name) { writeField(name, *room); };
+            std::string name = output;
+            if (output.empty())
+                name = writeNumberedFile(stem, "vlf", write);
+            else
+                write(name);
             return fmt::format("{} written, preset {}", name, room->field.record.preset);
         } catch (const Error& e) {
             return std::string(e.what());

@@ -1,13 +1,15 @@
 #pragma once
-// Names of new files.
+// New files that overwrite nothing.
 
+#include <functional>
 #include <string>
 
 namespace vlf::app {
 
-/// Makes an empty file STEM-NNNN.EXTENSION of the lowest number from 0001 on that is not taken, in
-/// the current folder, and returns its name: it is the caller's, nothing is ever overwritten.
-/// Throws FileError.
-std::string makeNumberedFile(const std::string& stem, const std::string& extension);
+/// Has `write` make a file STEM-NNNN.EXTENSION of the lowest number from 0001 on that is not taken,
+/// in the current folder, and returns its name. Throws FileError, and what `write` throws: there is
+/// no such file then.
+std::string writeNumberedFile(const std::string& stem, const std::string& extension,
+                              const std::function<void(const std::string& name)>& write);
 
 }  // namespace vlf::app

@@ -6,6 +6,7 @@
 #include "vlf/scene/generate/primitives.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <imgui.h>
 #include <imgui_stdlib.h>
@@ -17,6 +18,8 @@ namespace {
 constexpr float kMoveStep = 0.005f, kTurnStep = 0.5f, kScaleStep = 0.005f;  // of a drag, a pixel
 constexpr float kLeastScale = 1e-4f, kMostScale = 1e4f;
 constexpr float kFarthest = 1e5f;      // metres
+constexpr float kLargestTexel = 0.2f;  // metres
+constexpr float kMostTexels = 1 << 16;
 constexpr float kMostEmission = 1000;  // W·m⁻²·sr⁻¹
 constexpr float kDegree = kPi / 180;
 
@@ -32,26 +35,13 @@ bool combo(const char* label, const Names& names, Value& value) {
     return value != before;
 }
 
-void drawAdding(Viewer& viewer) {
-    static std::string text;
-    for (const std::string& name : primitiveNames()) {
-        if (ImGui::Button(name.c_str())) viewer.addObject(name);
-        ImGui::SameLine();
-    }
-    ImGui::TextDisabled("add one");
-    const bool entered = ImGui::InputTextWithHint("##add", "cube:0.3:red or chair.glb", &text,
-                                                  ImGuiInputTextFlags_EnterReturnsTrue);
-    ImGui::SameLine();
-    if ((ImGui::Button("add") || entered) && !text.empty()) viewer.addObject(text);
-}
-
 void drawList(Objects& objects) {
     for (std::size_t i = 0; i < objects.size(); ++i) {
         ImGui::PushID(static_cast<int>(i));
         bool visible = objects.now(i).visible;
         if (ImGui::Checkbox("##visible", &visible)) objects.setVisible(i, visible);
         ImGui::SameLine();
-        const std::string& name = objects.scenario().objects[i].object.name;
+        const std::string& name = objects.name(i);
         if (ImGui::Selectable(name.empty() ? "(no name)" : name.c_str(), objects.selected() == i))
             objects.select(i);
         ImGui::PopID();
@@ -86,46 +76,43 @@ void drawPose(Objects& objects, std::size_t i) {
     if (changed) objects.setPose(i, pose);
 }
 
-/// A colour of the source, or, if it states none, that of the first material. Whether it was
-/// changed: once, when the mouse lets go of it, since a model is made anew for it.
-bool editColour(const char* label, std::optional<Vec3>& stated, const Vec3& present, bool hdr) {
-    static ImGuiID editing = 0;
-    static Vec3 edited;
-    const ImGuiID id = ImGui::GetID(label);
-    Vec3 colour = editing == id ? edited : stated.value_or(present);
-    if (hdr)
-        ImGui::DragFloat3(label, &colour.x, 0.1f, 0, kMostEmission, "%.2f",
-                          ImGuiSliderFlags_AlwaysClamp);
-    else
-        ImGui::SliderFloat3(label, &colour.x, 0, 1, "%.2f", ImGuiSliderFlags_AlwaysClamp);
-    if (ImGui::IsItemActive()) editing = id, edited = colour;
-    if (!ImGui::IsItemDeactivatedAfterEdit()) {
-        if (editing == id && !ImGui::IsItemActive()) editing = 0;
-        return false;
-    }
-    editing = 0;
-    stated = colour;
-    return true;
+/// A colour of the source, or, if it states none, that of the first material.
+void drawColour(const char* label, std::optional<Vec3>& stated, const Vec3& present) {
+    Vec3 colour = stated.value_or(present);
+    if (ImGui::SliderFloat3(label, &colour.x, 0, 1, "%.2f", ImGuiSliderFlags_AlwaysClamp))
+        stated = colour;
 }
 
-void drawMaterial(Viewer& viewer, std::size_t i) {
-    Objects& objects = viewer.objects();
-    ObjectSource source = objects.scenario().objects[i].source;
-    const Material& present = objects.now(i).model->scene().materials.front();
-    bool changed = editColour("diffuse", source.diffuse, present.diffuse, false);
-    changed |= editColour("mirror", source.mirror, present.mirror, false);
-    changed |= editColour("emission", source.emission, present.emission, true);
-    if (changed) viewer.attempt([&] { objects.setSource(i, source); });
+void drawEmission(std::optional<Vec3>& stated, const Vec3& present) {
+    Vec3 colour = stated.value_or(present);
+    if (ImGui::DragFloat3("emission", &colour.x, 0.1f, 0, kMostEmission, "%.2f",
+                          ImGuiSliderFlags_AlwaysClamp))
+        stated = colour;
 }
 
-void drawGather(GatherSettings& gather) {
+/// 0: by the object's size.
+void drawTexel(float& texel, const Scene& model) {
+    const char* format = texel > 0 ? "%.3f m" : "by size";
+    if (!ImGui::SliderFloat("texel", &texel, 0, kLargestTexel, format,
+                            ImGuiSliderFlags_AlwaysClamp) ||
+        texel <= 0)
+        return;
+    float surface = 0;
+    for (std::uint32_t t = 0; t < model.triangles.size(); ++t) surface += area(model, t);
+    texel = std::max(texel, std::sqrt(surface / kMostTexels));
+}
+
+void drawSubdivision(GatherSettings& gather) {
+    ImGui::SliderInt("subdivision", &gather.subdivision, 0, ObjectModel::kMaxSubdivision, "%d",
+                     ImGuiSliderFlags_AlwaysClamp);
+}
+
+void drawGather(GatherSettings& gather, const Scene& model) {
     combo("light found at", kGatherPointNames, gather.points);
     if (gather.points == GatherPoints::vertices)
-        ImGui::SliderInt("subdivision", &gather.subdivision, 0, ObjectModel::kMaxSubdivision);
+        drawSubdivision(gather);
     else
-        ImGui::SliderFloat("texel", &gather.texelSize, 0, 0.2f,
-                           gather.texelSize > 0 ? "%.3f m" : "by size",
-                           ImGuiSliderFlags_AlwaysClamp);
+        drawTexel(gather.texelSize, model);
     if (ImGui::BeginCombo("lines", std::to_string(gather.lines).c_str())) {
         for (const int lines : {33, 129, 513, 2049, 8193})
             if (ImGui::Selectable(std::to_string(lines).c_str(), lines == gather.lines))
@@ -155,43 +142,81 @@ void drawHard(HardShadowSettings& hard) {
     ImGui::SliderFloat("darkness", &hard.opacity, 0, 1, "%.2f", ImGuiSliderFlags_AlwaysClamp);
 }
 
-void drawLighting(Viewer& viewer, std::size_t i) {
-    Objects& objects = viewer.objects();
+void drawLighting(Objects& objects, std::size_t i) {
     ObjectSettings settings = objects.now(i).settings;
     combo("shading", kShadingNames, settings.shading);
-    if (settings.shading == Shading::gather) drawGather(settings.gather);
+    if (settings.shading == Shading::gather)
+        drawGather(settings.gather, objects.now(i).model->scene());
+    if (settings.shading == Shading::lights || settings.shading == Shading::prt)
+        drawSubdivision(settings.gather);
     if (settings.shading == Shading::prt) drawPrt(settings.prt);
     combo("shadow", kShadowNames, settings.shadow);
     if (settings.shadow == ShadowKind::hard) drawHard(settings.hard);
     ImGui::SliderInt("rays to lamps", &settings.directSamples, 1, 256, "%d",
                      ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic);
-    if (settings != objects.now(i).settings)
-        viewer.attempt([&] { objects.setSettings(i, settings); });
+    if (settings != objects.now(i).settings) objects.setSettings(i, settings);
 }
 
 void drawName(Objects& objects, std::size_t i) {
-    std::string name = objects.scenario().objects[i].object.name;
+    std::string name = objects.name(i);
     if (ImGui::InputText("name", &name)) objects.setName(i, name);
-}
-
-void drawSelected(Viewer& viewer, std::size_t i) {
-    Objects& objects = viewer.objects();
-    drawName(objects, i);
-    drawPose(objects, i);
-    drawMaterial(viewer, i);
-    drawLighting(viewer, i);
-    const bool copied = ImGui::Button("duplicate");
-    ImGui::SameLine();
-    const bool removed = ImGui::Button("remove");
-    if (copied) objects.duplicate(i);
-    if (removed) objects.remove(i);
 }
 
 }  // namespace
 
-void drawObjectPanel(Viewer& viewer) {
-    Objects& objects = viewer.objects();
-    drawAdding(viewer);
+void ObjectPanel::drawAdding() {
+    for (const std::string& name : primitiveNames()) {
+        if (ImGui::Button(name.c_str())) viewer_.addObject(name);
+        ImGui::SameLine();
+    }
+    ImGui::TextDisabled("add one");
+    const bool entered = ImGui::InputTextWithHint("##add", "cube:0.3:red or chair.glb", &adding_,
+                                                  ImGuiInputTextFlags_EnterReturnsTrue);
+    ImGui::SameLine();
+    if ((ImGui::Button("add") || entered) && !adding_.empty()) viewer_.addObject(adding_);
+}
+
+/// A model is made anew when the mouse lets go of a colour.
+void ObjectPanel::drawMaterial(std::size_t i) {
+    Objects& objects = viewer_.objects();
+    const bool edits = editing_ && editing_->object == objects.id(i);
+    ObjectSource source = edits ? editing_->source : objects.scenario().objects[i].source;
+    const Material& present = objects.now(i).model->scene().materials.front();
+    bool held = false, released = false;
+    const auto look = [&] {
+        held |= ImGui::IsItemActive();
+        released |= ImGui::IsItemDeactivatedAfterEdit();
+    };
+    drawColour("diffuse", source.diffuse, present.diffuse);
+    look();
+    drawColour("mirror", source.mirror, present.mirror);
+    look();
+    drawEmission(source.emission, present.emission);
+    look();
+    editing_.reset();
+    if (held) editing_ = {objects.id(i), source};
+    if (released) viewer_.attempt([&] { objects.setSource(i, source); });
+}
+
+void ObjectPanel::drawSelected(std::size_t i) {
+    Objects& objects = viewer_.objects();
+    // What is typed or dragged is of this object alone, though another be selected meanwhile.
+    ImGui::PushID(std::to_string(objects.id(i)).c_str());
+    drawName(objects, i);
+    drawPose(objects, i);
+    drawMaterial(i);
+    drawLighting(objects, i);
+    const bool copied = ImGui::Button("duplicate");
+    ImGui::SameLine();
+    const bool removed = ImGui::Button("remove");
+    ImGui::PopID();
+    if (copied) objects.duplicate(i);
+    if (removed) objects.remove(i);
+}
+
+void ObjectPanel::draw() {
+    Objects& objects = viewer_.objects();
+    drawAdding();
     if (objects.size() == 0) return;
     drawList(objects);
     bool playing = objects.playing();
@@ -200,10 +225,10 @@ void drawObjectPanel(Viewer& viewer) {
     bool steered = objects.subject() == Subject::object;
     if (ImGui::Checkbox("keys move the object", &steered)) objects.toggleSubject();
     ImGui::SameLine();
-    if (ImGui::Button("save")) viewer.saveObjects();
+    if (ImGui::Button("save")) viewer_.saveObjects();
     ImGui::SameLine();
-    if (ImGui::Button("compare")) viewer.compareNext();
-    if (objects.selected()) drawSelected(viewer, *objects.selected());
+    if (ImGui::Button("compare")) viewer_.compareNext();
+    if (objects.selected()) drawSelected(*objects.selected());
 }
 
 }  // namespace vlf::app

@@ -19,6 +19,7 @@ std::optional<Gizmo> ObjectPointer::gizmo(const Screen& screen, float scale) con
 void ObjectPointer::press(const Screen& screen, const Vec2& point, float scale) {
     grabbed_ = gizmo(screen, scale);
     held_ = grabbed_ ? grabbed_->pick(point) : GizmoHandle();
+    if (grabbed_) grabbedId_ = objects_.id(*objects_.selected());
     from_ = point;
     moved_ = false;
 }
@@ -26,7 +27,7 @@ void ObjectPointer::press(const Screen& screen, const Vec2& point, float scale) 
 void ObjectPointer::drag(const Vec2& point) {
     if (!from_) return;
     moved_ = moved_ || glm::length(point - *from_) > kClick;
-    if (held_ && objects_.selected())
+    if (held_ && objects_.selected() && objects_.id(*objects_.selected()) == grabbedId_)
         objects_.setPose(*objects_.selected(), grabbed_->dragged(held_, *from_, point));
 }
 

@@ -29,6 +29,7 @@ class ObjectPointer {
   private:
     Objects& objects_;
     std::optional<Gizmo> grabbed_;  ///< as it was when the button went down
+    std::uint64_t grabbedId_ = 0;   ///< of the object that it moves
     GizmoHandle held_;
     std::optional<Vec2> from_;  ///< where the button went down; none: it is up
     bool moved_ = false;

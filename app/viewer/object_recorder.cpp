@@ -15,12 +15,14 @@ ObjectRecorder::Track& ObjectRecorder::trackOf(std::uint64_t id) {
 void ObjectRecorder::record(double seconds, const Objects& objects) {
     for (Track& track : tracks_) track.there = false;
     for (std::size_t i = 0; i < objects.size(); ++i) {
+        if (!objects.shown(i)) continue;
         Track& track = trackOf(objects.id(i));
         const DynamicObject& now = objects.now(i);
         if (track.motion.empty() && seconds > 0) track.motion.record(0, now.pose, false);
         track.motion.record(seconds, now.pose, now.visible);
         track.object.source = objects.scenario().objects[i].source;
         track.object.object = now;
+        track.object.object.name = objects.name(i);
         track.there = true;
     }
     for (Track& track : tracks_)

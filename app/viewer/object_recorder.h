@@ -12,7 +12,8 @@ class ObjectRecorder {
     /// How things are at a time, s, since the start.
     void record(double seconds, const Objects& objects);
 
-    /// Every object that there has been, with how it moved; material and settings are its last.
+    /// Every object that there has been, with how it moved; name, material and settings are its
+    /// last.
     Scenario scenario() const;
 
   private:

@@ -1,7 +1,6 @@
 #include "panel.h"
 
 #include "display_modes.h"
-#include "object_panel.h"
 #include "viewer.h"
 
 #include <optional>
@@ -117,7 +116,7 @@ void drawPanel(Viewer& viewer) {
                      ImGuiWindowFlags_NoSavedSettings)) {
         ImGui::PushItemWidth(-9 * ImGui::GetFontSize());
         if (ImGui::CollapsingHeader("View", kOpen)) drawView(viewer.walk());
-        if (ImGui::CollapsingHeader("Objects", kOpen)) drawObjectPanel(viewer);
+        if (ImGui::CollapsingHeader("Objects", kOpen)) viewer.objectPanel().draw();
         if (ImGui::CollapsingHeader("Movement", kOpen)) drawMovement(viewer.walk());
         if (ImGui::CollapsingHeader("Exposure", kOpen)) drawExposure(viewer.walk());
         if (ImGui::CollapsingHeader("Cameras", kOpen)) drawCameras(viewer.walk());

@@ -8,6 +8,7 @@
 #include "object_options.h"
 #include "overlay.h"
 #include "panel.h"
+#include "stopwatch.h"
 
 #include "vlf/base/error.h"
 #include "vlf/dynamic/scenario_file.h"
@@ -17,7 +18,6 @@
 #include "vlf/render/gl/still.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <filesystem>
 #include <utility>
@@ -53,12 +53,6 @@ std::string stemOf(const std::string& file) {
     return std::filesystem::path(file).stem().string();
 }
 
-using Clock = std::chrono::steady_clock;
-
-double millisecondsSince(Clock::time_point start) {
-    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
-
 /// True every so often.
 bool due(float& since, float seconds, float interval) {
     since += seconds;
@@ -88,6 +82,7 @@ Viewer::Viewer(std::shared_ptr<const BakedRoom> room, const ViewerOptions& optio
       walk_(room, options.start, [this](const std::string& text) { say(text); }),
       session_(options.session),
       objects_(options.objects, options.models, [this](const std::string& text) { say(text); }),
+      objectPanel_(*this),
       pointer_(objects_),
       comparison_(options.renderer, [this](const std::string& text) { say(text); }),
       shaderWatch_(options.renderer.shaderFolder) {
@@ -107,7 +102,7 @@ Viewer::Viewer(std::shared_ptr<const BakedRoom> room, const ViewerOptions& optio
 }
 
 void Viewer::frame(double seconds) {
-    const Clock::time_point start = Clock::now();
+    const Stopwatch watch;
     const float step = std::min(static_cast<float>(session_.advance(seconds)), kLongestFrame);
     const double pathSeconds = session_.seconds();
     window_->poll(*this);
@@ -123,9 +118,9 @@ void Viewer::frame(double seconds) {
     gui_.begin(shown_.panel && !window_->pointerCaptured());
     drawMessages(static_cast<float>(seconds));
     drawOverlays();
-    const double cpuMs = millisecondsSince(start);
+    const double cpuMs = watch.milliseconds();
     window_->swap();
-    note(pathSeconds, cpuMs, millisecondsSince(start));
+    note(pathSeconds, cpuMs, watch.milliseconds());
     showTitle(static_cast<float>(seconds));
     if (gl::contextLost())
         throw Error(
@@ -158,11 +153,11 @@ void Viewer::takeNews() {
 
 void Viewer::updateObjects() {
     objectsMs_.reset();
-    const Clock::time_point start = Clock::now();
-    const bool changed = objects_.update(session_.pathSeconds(), walk_.camera().eye);
-    if (!objects_.room()) return;
-    if (changed) shownRoom_->renderer().updateObjects(*objects_.room());
-    objectsMs_ = millisecondsSince(start);
+    const Stopwatch watch;
+    objects_.update(session_.pathSeconds(), walk_.camera().eye, [this](const DynamicRoom& room) {
+        shownRoom_->renderer().updateObjects(room);
+    });
+    if (objects_.room()) objectsMs_ = watch.milliseconds();
     comparison_.update(shownRoom_->shared(), objects_);
 }
 
@@ -293,8 +288,9 @@ void Viewer::addObject(const std::string& text) {
 
 void Viewer::saveObjects() {
     attempt([&] {
-        const std::string name = makeNumberedFile(stemOf(options_.file), "json");
-        writeScenario(name, objects_.scenario());
+        const std::string name = writeNumberedFile(
+            stemOf(options_.file), "json",
+            [&](const std::string& file) { writeScenario(file, objects_.scenario()); });
         announce(name + " written");
     });
 }
@@ -326,6 +322,7 @@ void Viewer::reloadShaders(float seconds) {
     if (!due(sinceWatched_, seconds, kWatching) || !shaderWatch_.changed()) return;
     try {
         shownRoom_->reloadShaders();
+        comparison_.reloadShaders();
         problem_.clear();
         say("shaders reloaded");
     } catch (const Error& e) {
@@ -334,17 +331,21 @@ void Viewer::reloadShaders(float seconds) {
     }
 }
 
-/// A mode that this room cannot be shown in does not end the walk.
+/// What cannot be shown of this room does not end the walk.
 void Viewer::drawRoom(float seconds) {
+    const gl::TimedPass pass(roomTimer_);
     if (comparison_.shown()) {
-        const gl::TimedPass pass(roomTimer_);
-        return comparison_.draw(*shownRoom_, walk_.camera(), walk_.settings(),
-                                window_->pixelWidth(), window_->pixelHeight(), window_->pointer().x,
-                                shownRoom_->renderer().lightChanges(), seconds);
+        try {
+            return comparison_.draw(*shownRoom_, walk_.camera(), walk_.settings(),
+                                    window_->pixelWidth(), window_->pixelHeight(),
+                                    window_->pointer().x, seconds);
+        } catch (const InputError& e) {
+            comparison_.end();
+            announce(e.what());
+        }
     }
     const View view = viewOf(walk_.camera(), window_->pixelWidth(), window_->pixelHeight(),
                              shownRoom_->renderer().nearest());
-    const gl::TimedPass pass(roomTimer_);
     try {
         shownRoom_->draw(view, walk_.settings(), 0);
     } catch (const InputError& e) {
@@ -425,29 +426,22 @@ void Viewer::writeWantedPicture() {
 
 /// As it is shown, without what lies over it, or its radiance. Returns the name of the file.
 std::string Viewer::writePicture(Picture kind) {
-    const std::string stem = stemOf(options_.file);
     const int width = window_->pixelWidth(), height = window_->pixelHeight();
-    const std::string name = makeNumberedFile(stem, kind == Picture::png ? "png" : "exr");
-    try {
-        if (kind == Picture::png) {
+    if (kind == Picture::png)
+        return writeNumberedFile(stemOf(options_.file), "png", [&](const std::string& name) {
             writePng(name, readFramebuffer(0, width, height));
-            return name;
-        }
-        StillParams params;
-        params.camera = walk_.camera();
-        params.width = width;
-        params.height = height;
-        const DisplayMode mode = shownRoom_->drawable(walk_.settings().mode);
-        params.mode = mode == DisplayMode::field ? mode : DisplayMode::raytraced;
-        params.lookup = walk_.lookup();
+        });
+    StillParams params;
+    params.camera = walk_.camera();
+    params.width = width;
+    params.height = height;
+    const DisplayMode mode = shownRoom_->drawable(walk_.settings().mode);
+    params.mode = mode == DisplayMode::field ? mode : DisplayMode::raytraced;
+    params.lookup = walk_.lookup();
+    return writeNumberedFile(stemOf(options_.file), "exr", [&](const std::string& name) {
         Progress progress;
         writeExr(name, renderStill(shownRoom_->renderer(), params, progress));
-    } catch (...) {
-        std::error_code ignored;
-        std::filesystem::remove(name, ignored);
-        throw;
-    }
-    return name;
+    });
 }
 
 void Viewer::showTitle(float seconds) {

@@ -6,6 +6,7 @@
 #include "gui.h"
 #include "live_view.h"
 #include "memory.h"
+#include "object_panel.h"
 #include "object_pointer.h"
 #include "objects.h"
 #include "session.h"
@@ -73,8 +74,8 @@ class Viewer : private WindowListener {
 
     Walkthrough& walk() { return walk_; }
     Objects& objects() { return objects_; }
+    ObjectPanel& objectPanel() { return objectPanel_; }
     Shown& shown() { return shown_; }
-    const ObjectSettings& objectDefaults() const { return options_.object; }
     /// Adds an object that is written as for --object; before the camera, if no place is stated.
     /// What is wrong with it is said.
     void addObject(const std::string& text);
@@ -129,6 +130,7 @@ class Viewer : private WindowListener {
     Walkthrough walk_;
     Session session_;
     Objects objects_;
+    ObjectPanel objectPanel_;
     ObjectPointer pointer_;
     Comparison comparison_;
     std::optional<LiveView> live_;

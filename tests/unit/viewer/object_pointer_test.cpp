@@ -59,6 +59,17 @@ TEST(ObjectPointer, ADragOfAnArmMovesTheObjectAlongIt) {
     EXPECT_EQ(p.objects->now(0).pose.translation, before.translation + way) << "the button is up";
 }
 
+TEST(ObjectPointer, ADragMovesTheObjectItBeganWithAlone) {
+    Pointed p;
+    p.click(p.pointOf(0));
+    const Pose sphere = p.objects->now(1).pose;
+    const Vec2 end = *p.screen.point(p.pointer.gizmo(p.screen, 1)->armEnd(0));
+    p.pointer.press(p.screen, end, 1);
+    p.objects->selectNext();
+    p.pointer.drag(end + Vec2(50, 0));
+    EXPECT_EQ(p.objects->now(1).pose, sphere);
+}
+
 TEST(ObjectPointer, AnInvisibleObjectHasNoGizmo) {
     Pointed p;
     p.click(p.pointOf(0));

@@ -9,6 +9,7 @@ namespace {
 
 using test::bodyAt;
 using test::PlacedObjects;
+using test::unlightable;
 
 TEST(ObjectRecorder, AReplayHasEveryFrameAsItWas) {
     PlacedObjects placed;
@@ -20,7 +21,7 @@ TEST(ObjectRecorder, AReplayHasEveryFrameAsItWas) {
         if (frame > 10 && frame < 20) objects.steer({{1, 0, 0.5f}, {0.3f, 0}, false}, 1 / 30.0f);
         if (frame == 25) objects.add(bodyAt("knot", {1, 1, 1}));
         if (frame == 30) objects.remove(1);
-        objects.update(frame / 30.0, placed.eye);
+        placed.update(frame / 30.0);
         recorder.record(frame / 30.0, objects);
         frames.emplace_back();
         for (std::size_t i = 0; i < objects.size(); ++i) frames.back().push_back(objects.now(i));
@@ -38,6 +39,28 @@ TEST(ObjectRecorder, AReplayHasEveryFrameAsItWas) {
     }
     EXPECT_LT(std::get<KeyframeMotion>(scenario.objects[0].motion).keyframes.size(), 16u)
         << "rests are short";
+}
+
+TEST(ObjectRecorder, ARecordingHasTheLastName) {
+    PlacedObjects placed;
+    ObjectRecorder recorder;
+    recorder.record(0, *placed.objects);
+    placed.objects->setName(1, "ball");
+    recorder.record(1, *placed.objects);
+    EXPECT_EQ(recorder.scenario().objects[0].object.name, "cube");
+    EXPECT_EQ(recorder.scenario().objects[1].object.name, "ball");
+}
+
+TEST(ObjectRecorder, WhatWasNeverShownIsNotRecorded) {
+    PlacedObjects placed;
+    ObjectRecorder recorder;
+    ScenarioObject cube = bodyAt("cube", {1, 1, 1});
+    cube.object.settings = unlightable();
+    placed.objects->add(cube);
+    recorder.record(0, *placed.objects);
+    placed.update(1);
+    recorder.record(1, *placed.objects);
+    EXPECT_EQ(recorder.scenario().objects.size(), 2u);
 }
 
 }  // namespace
