@@ -47,15 +47,27 @@ class Objects(WindowCase):
     def test_keys_move_the_object_as_they_say(self):
         for keys, sign in [([("a",), ("ctrl", "w"), ("w",)], [-1, 1, -1]),
                            ([("d",), ("ctrl", "x"), ("x",)], [1, -1, 1])]:
-            self.open("--fresh", "--object", CUBE, *CHEAP, "--record", "walk.json")
-            self.press("o", "keys move cube")
-            for key in keys:
-                self.hold(*key)
-            self.close()
-            frames = self.objects("walk.json")[0]["motion"]["keyframes"]
+            frames = self.recorded(keys)
             for axis in range(3):
                 way = frames[-1]["position"][axis] - frames[0]["position"][axis]
                 self.assertGreater(sign[axis] * way, 0.05, (keys, axis))
+        for keys, axis in [(("ctrl", "a"), [0, 1, 0]), (("ctrl", "d"), [0, -1, 0]),
+                           (("q",), [1, 0, 0]), (("z",), [-1, 0, 0])]:
+            frames = self.recorded([keys])
+            self.assertEqual(frames[-1]["position"], frames[0]["position"])
+            turn = frames[-1]["rotation"]
+            self.assertGreater(turn["degrees"], 3, keys)
+            self.assertLess(turn["degrees"], 180, keys)
+            self.assertEqual([round(a, 3) for a in turn["axis"]], axis, keys)
+
+    def recorded(self, keys):
+        """The keyframes of a cube that these keys have moved."""
+        self.open("--fresh", "--object", CUBE, *CHEAP, "--record", "walk.json")
+        self.press("o", "keys move cube")
+        for key in keys:
+            self.hold(*key)
+        self.close()
+        return self.objects("walk.json")[0]["motion"]["keyframes"]
 
     def test_a_click_selects_and_the_gizmo_moves(self):
         self.open("--fresh", "--object", "cube:1.5@2.78,2.73,1", *CHEAP, size="400x300")
@@ -68,7 +80,10 @@ class Objects(WindowCase):
         moved = self.picture()
         self.assertNotEqual(start, moved)
         self.press("Delete", "removed")
+        empty = self.picture()
+        self.assertNotEqual(moved, empty)
         self.press("0", "start")
+        self.assertEqual(empty, self.picture(), "the camera has not moved")
         self.close()
 
     def test_replays_have_the_objects_equal_frame_by_frame(self):
@@ -86,8 +101,12 @@ class Objects(WindowCase):
             self.assertEqual(self.program.wait(timeout=60), 0)
         self.assertEqual((self.folder / "a.json").read_bytes(),
                          (self.folder / "b.json").read_bytes())
-        frames = self.objects("a.json")[0]["motion"]["keyframes"]
+        frames, recorded = (self.objects(file)[0]["motion"]["keyframes"]
+                            for file in ("a.json", "walk.json"))
         self.assertNotEqual(frames[0]["position"], frames[-1]["position"])
+        for end in (0, -1):
+            for a, b in zip(frames[end]["position"], recorded[end]["position"]):
+                self.assertAlmostEqual(a, b, delta=1e-4)
         with open(self.folder / "a.csv", encoding="utf-8") as log:
             rows = list(csv.DictReader(log))
         self.assertTrue(all(float(row["objects_ms"]) >= 0 for row in rows))
@@ -112,6 +131,7 @@ class Objects(WindowCase):
 
     def test_dynamic_light_is_compared_with_the_room_baked_again(self):
         self.open("--fresh", "--object", CUBE, *CHEAP)
+        before = self.picture()
         self.press("v", "comparing")
         self.hear("baked again")
         side = self.picture()
@@ -121,8 +141,10 @@ class Objects(WindowCase):
         self.screen.do("mousemove", 799, 100, "sleep", "0.2")
         dynamic = self.picture()
         self.assertEqual(len({side, truth, dynamic}), 3)
+        self.assertEqual(dynamic, before)
         self.press("v", "wipe: dynamic | error")
         self.press("v", "comparison ended")
+        self.assertEqual(before, self.picture())
         self.press("v", "comparing")
         self.press("o", "keys move cube")
         self.screen.do("keydown", "w")
@@ -130,6 +152,32 @@ class Objects(WindowCase):
             pass
         self.screen.do("keyup", "w")
         self.press("v", "comparing")
+        self.close()
+
+    def test_both_sides_of_a_comparison_have_the_same_shaders(self):
+        shaders = self.folder / "shaders"
+        shaders.mkdir()
+        self.open("--fresh", "--object", CUBE, *CHEAP, "--shaders", "shaders")
+        self.press("v", "comparing")
+        self.hear("baked again")
+        self.press("v", "wipe")
+        (shaders / "tone_map.glsl").write_text(
+            "vec4 outputColor(vec3 radiance) { return vec4(1, 0, 0, 1); }")
+        self.hear("shaders reloaded")
+        pictures = set()
+        for x in (0, 799):
+            self.screen.do("mousemove", x, 100, "sleep", "0.2")
+            pictures.add(self.picture())
+        self.assertEqual(len(pictures), 1, "all is red")
+        self.close()
+
+    def test_there_is_nothing_to_compare_without_an_object(self):
+        (self.folder / "scene.json").write_text(json.dumps({
+            "format": "vlf scenario", "version": 1,
+            "objects": [{"shape": "cube", "visible": False}]}))
+        self.open("--fresh", "--scenario", "scene.json")
+        self.press("v", "no object to compare")
+        self.press("j", "all objects are hidden")
         self.close()
 
     def test_what_cannot_be_put_into_the_room_opens_no_window(self):

@@ -5,6 +5,7 @@ Run as: window_test.py PATH_OF_VLF [unittest options]; needs Xvfb, xauth and xdo
 
 import csv
 import os
+import re
 import subprocess
 import time
 import unittest
@@ -196,15 +197,27 @@ class Walkthrough(WindowCase):
         self.assertEqual(self.remembered()["movement"], "fly")
 
 
-class KeyTable(Case):
-    def test_the_manual_has_every_key_of_the_help(self):
-        manual = (Path(__file__).parents[2] / "docs" / "command-line.md").read_text()
+class Manual(Case):
+    def setUp(self):
+        super().setUp()
+        self.manual = (Path(__file__).parents[2] / "docs" / "command-line.md").read_text()
+
+    def test_it_has_every_option_of_the_help(self):
+        for command in ["scene", "bake", "info", "render", "view", "reference", "compare",
+                        "compare-dynamic", "sheet"]:
+            options = re.findall(r"^ +(?:-\w,)?(--[a-z-]+)", self.run_vlf(command, "--help").stdout,
+                                 re.MULTILINE)
+            self.assertGreater(len(options), 2)
+            for option in options:
+                self.assertRegex(self.manual, rf"{option}\b", command)
+
+    def test_it_has_every_key_of_the_help(self):
         text = self.run_vlf("view", "--help").stdout
         rows = text.split("Keys:\n")[1].split("\n\n")[0].splitlines()
         self.assertGreater(len(rows), 20)
         for row in rows:
             keys, does = row[:26].strip(), row[26:].strip()
-            self.assertIn(f"| {keys} | {does} |", manual)
+            self.assertIn(f"| {keys} | {does} |", self.manual)
 
 
 class NoScreen(Case):
