@@ -65,7 +65,12 @@ TEST(Objects, TurnsAreAboutItsOwnAxesAndKeepThePlace) {
     expectNear(turned.direction({0, 1, 0}), {0, 1, 0});
     EXPECT_LT(turned.direction({1, 0, 0}).z, -0.1f) << "counter-clockwise, seen from above";
     objects.steer({Vec3(0), {0, 1}, false}, 0.5f);
-    expectNear(objects.now(0).pose.direction({1, 0, 0}), turned.direction({1, 0, 0}));
+    const Pose tipped = objects.now(0).pose;
+    expectNear(tipped.direction({1, 0, 0}), turned.direction({1, 0, 0}));
+    EXPECT_GT(glm::dot(tipped.direction({0, 1, 0}), turned.direction({0, 0, 1})), 0.1f)
+        << "counter-clockwise, seen from the tip of X";
+    objects.steer({Vec3(0), {1, 0}, false}, 0.5f);
+    expectNear(objects.now(0).pose.direction({0, 1, 0}), tipped.direction({0, 1, 0}));
     EXPECT_TRUE(isValid(objects.now(0).pose));
 }
 
@@ -84,6 +89,36 @@ TEST(Objects, SelectionGoesRoundAndEndsWithRemoval) {
     placed.update(0);
     ASSERT_EQ(objects.room()->litObjects().size(), 1u);
     EXPECT_EQ(objects.now(0).name, "sphere");
+}
+
+TEST(Objects, WhereNoneIsSelectedKeysMoveTheCamera) {
+    PlacedObjects placed;
+    placed.objects->toggleSubject();
+    placed.objects->select({});
+    EXPECT_EQ(placed.objects->subject(), Subject::camera);
+    EXPECT_EQ(placed.said, "no object selected");
+}
+
+TEST(Objects, TheirLightIsFoundAsTheEyeSeesThem) {
+    Scenario scenario{{bodyAt("cube", {4.3f, 0.5f, 1})}};
+    scenario.objects[0].object.settings.shading = Shading::gather;
+    PlacedObjects placed{scenario};
+    placed.objects->select(0);
+    placed.objects->steer(push({1, 0, 0}), 0.1f);
+    EXPECT_TRUE(placed.update(1));
+    EXPECT_FALSE(placed.update(1));
+    placed.eye.z = 2.5f;
+    EXPECT_TRUE(placed.update(2)) << "its other side";
+}
+
+TEST(Objects, ANewOneIsPlacedBeforeTheWall) {
+    PlacedObjects placed;
+    const Ray ray{{2.5f, 5, 1}, {2, 0, 0}};
+    const float wall = 2 * placed.rays.closest(ray).t;
+    expectNear(placed.objects->placeAlong(ray, 0.1f), ray.origin + Vec3(0.4f, 0, 0));
+    const float away = placed.objects->placeAlong(ray, 1.0f).x - ray.origin.x;
+    EXPECT_GT(wall, 2.9f);
+    EXPECT_LT(away, wall);
 }
 
 TEST(Objects, ACopyIsBesideItsOriginalUnderItsOwnName) {
@@ -229,6 +264,7 @@ TEST(Objects, HiddenOnesAreNeitherSelectedByKeysNorMoved) {
         objects.selectNext();
         EXPECT_EQ(objects.selected(), 1u);
     }
+    EXPECT_FALSE(objects.scenario().objects[0].object.visible);
     ASSERT_EQ(objects.visible().size(), 1u);
     EXPECT_EQ(objects.visible()[0].name, "sphere");
     objects.setVisible(1, false);
