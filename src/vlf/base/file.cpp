@@ -48,22 +48,21 @@ void writeTo(const std::string& target, int flags, std::span<const std::uint8_t>
     if (::close(file) != 0) throw FileError(path, "cannot write: " + systemMessage(errno));
 }
 
-/// The file behind a symbolic link, so that a rename replaces the file and not the link.
-std::string linkTarget(const std::string& path) {
-    std::error_code ignored;
-    if (!fs::is_symlink(path, ignored)) return path;
-    const fs::path target = fs::canonical(path, ignored);
-    return target.empty() ? path : target.string();
-}
-
 bool isNoRegularFile(const std::string& target) {
     std::error_code ignored;
     return fs::exists(target, ignored) && !fs::is_regular_file(target, ignored);
 }
 
+constexpr const char* kPending = ".tmp-";  // then process, '-' and a running number
+
 std::string newNameBeside(const std::string& path) {
     static std::atomic<unsigned> counter{0};
-    return path + ".tmp-" + std::to_string(::getpid()) + "-" + std::to_string(counter++);
+    return path + kPending + std::to_string(::getpid()) + "-" + std::to_string(counter++);
+}
+
+fs::path folderOf(const std::string& path) {
+    const fs::path folder = fs::path(path).parent_path();
+    return folder.empty() ? "." : folder;
 }
 
 }  // namespace
@@ -79,6 +78,25 @@ std::vector<std::uint8_t> readFile(const std::string& path) {
     stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
     if (!stream) throw FileError(path, "cannot read: the file ends early or cannot be accessed");
     return bytes;
+}
+
+std::string linkTarget(const std::string& path) {
+    std::error_code ignored;
+    if (!fs::is_symlink(path, ignored)) return path;
+    const fs::path target = fs::canonical(path, ignored);
+    return target.empty() ? path : target.string();
+}
+
+void removeLeftovers(const std::string& path) {
+    const std::string target = linkTarget(path);
+    const std::string pending = fs::path(target).filename().string() + kPending;
+    std::error_code ignored;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folderOf(target), ignored)) {
+        const std::string name = entry.path().filename().string();
+        if (name.starts_with(pending) &&
+            name.find_first_not_of("0123456789-", pending.size()) == std::string::npos)
+            fs::remove(entry.path(), ignored);
+    }
 }
 
 void writeFile(const std::string& path, std::span<const std::uint8_t> bytes) {
@@ -108,8 +126,7 @@ void requireWritable(const std::string& path) {
     std::error_code ignored;
     if (fs::is_directory(target, ignored)) throw FileError(path, "cannot write: it is a folder");
     if (isNoRegularFile(target)) return;
-    fs::path folder = fs::path(target).parent_path();
-    if (folder.empty()) folder = ".";
+    const fs::path folder = folderOf(target);
     if (!fs::is_directory(folder, ignored))
         throw FileError(path, "there is no folder '" + folder.string() + "'; create it first");
     if (::access(folder.c_str(), W_OK | X_OK) != 0)

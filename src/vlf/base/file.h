@@ -16,6 +16,13 @@ std::vector<std::uint8_t> readFile(const std::string& path);
 /// device or pipe is written to directly.
 void writeFile(const std::string& path, std::span<const std::uint8_t> bytes);
 
+/// The file behind a symbolic link, else the path itself: what writeFile replaces.
+std::string linkTarget(const std::string& path);
+
+/// Removes what processes that were killed in writeFile(path) or with a PendingFile left beside it.
+/// No other process may be writing it.
+void removeLeftovers(const std::string& path);
+
 /// A file that appears under its name only when it is complete: writeFile for those that write
 /// piece by piece, or let another program write.
 class PendingFile {

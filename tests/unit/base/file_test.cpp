@@ -67,6 +67,21 @@ TEST_F(FileTest, APendingFileThatIsGivenUpLeavesTheOldOne) {
     EXPECT_THROW(PendingFile("/dev/null"), FileError);
 }
 
+TEST_F(FileTest, WhatKilledProcessesLeftIsRemovedAndNothingElse) {
+    for (const char* name : {"a", "a.tmp-12-0", "a.tmp-7-31", "a.tmp-12-0.png", "a.tmp-notes",
+                             "aa.tmp-12-0", "a.checkpoint.tmp-12-0"})
+        writeFile(path(name), oldBytes_);
+    fs::create_symlink(path("a"), path("link"));
+    removeLeftovers(path("link"));
+    EXPECT_EQ(fileCount(), 6);
+    for (const char* gone : {"a.tmp-12-0", "a.tmp-7-31"}) EXPECT_FALSE(fs::exists(path(gone)));
+    EXPECT_NO_THROW(removeLeftovers(path("missing/a")));
+    PendingFile pending(path("a"));
+    writeFile(pending.name(), newBytes_);
+    removeLeftovers(path("a"));
+    EXPECT_FALSE(fs::exists(pending.name())) << "leftovers are not named as pending files are";
+}
+
 TEST_F(FileTest, SaysWhichFileCannotBeRead) {
     try {
         readFile(path("missing"));
