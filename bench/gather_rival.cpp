@@ -57,7 +57,7 @@ class GatherBake {
         Convergence convergence(state_);
         while (!convergence.reached(state_.params.maxBounces, state_.params.tolerance)) {
             bounce(options_.coarseRays, 1);
-            convergence.update(state_);
+            convergence.update();
         }
         state_.report.residual = convergence.residualAfter(state_.params.settlingSweeps);
         if (state_.params.settlingSweeps > 0) settle();

@@ -77,9 +77,9 @@ class LadderBake {
         board_.note([&](LiveStatus& s) { s.preset = params.preset; });
         roomShown_ = false;
         BakeReport report;
-        const auto observe = [&](const BakeState& state, BakeStage stage) {
+        const auto observe = [&](const BakeState& state) {
             progress.check();
-            this->observe(state, stage);
+            this->observe(state);
         };
         const auto room = std::make_shared<BakedRoom>();
         room->field = bake(scene_, params, progress, &report, observe);
@@ -98,10 +98,10 @@ class LadderBake {
              params);
     }
 
-    void observe(const BakeState& state, BakeStage stage) {
+    void observe(const BakeState& state) {
         board_.note([&](LiveStatus& s) { s.missingLight = state.report.residual; });
-        if (lightShown_ && stage != BakeStage::settled) return;
-        switch (stage) {
+        if (lightShown_ && state.stage != BakeStage::settled) return;
+        switch (state.stage) {
             case BakeStage::charts:
                 return show(state, LiveStage::estimated);
             case BakeStage::directLight:
@@ -111,6 +111,8 @@ class LadderBake {
                 return;
             case BakeStage::settled:
                 return show(state, LiveStage::settled);
+            case BakeStage::solved:
+                return;  // the finished room follows
         }
     }
 

@@ -2,13 +2,12 @@
 
 #include "vlf/base/error.h"
 #include "vlf/base/parallel.h"
-#include "vlf/propagate/direct_light.h"
 #include "vlf/propagate/fill_atlas.h"
-#include "vlf/propagate/radiance_bake.h"
 
 #include <algorithm>
 #include <chrono>
 #include <ctime>
+#include <utility>
 
 namespace vlf {
 
@@ -80,13 +79,57 @@ bool hasMirrors(const Scene& scene, const std::vector<Chart>& charts) {
     });
 }
 
-void addRadianceField(BakeState& state, LightField& field, Progress& progress) {
+/// Everything before light.
+void layOut(BakeState& state, Progress& progress) {
+    const BakeParams& p = state.params;
+    state.frame = frameOf(state.scene);
+    state.unwrap = timed(state.report, progress, "charts", [&] {
+        return unwrap(state.scene, state.rays, {p.texelSize, p.texelBudget, p.seed}, progress);
+    });
+    state.report.texels = state.unwrap.texels.size();
+    state.faces = makeBundleFaces(state.scene, state.unwrap, state.frame);
+    state.sources = findLightSources(state.scene, state.unwrap);
+    state.bentTexels = findBentTexels(state.scene, state.unwrap);
+    findReflectances(state);
+    checkSolution(state);
+}
+
+void lightDirectly(BakeState& state, Progress& progress, const BakeObserver& observe) {
+    const DirectLightParams params{state.params.directSamples, state.params.seed};
+    timed(state.report, progress, "direct light", [&] {
+        while (!findDirectLight(state.scene, state.rays, state.unwrap, state.sources, params,
+                                state.direct, progress))
+            observe(state);
+    });
+    for (const DirectEstimate& e : state.direct.estimates)
+        state.directIrradiance.push_back(e.value);
+    state.direct = {};
+    state.irradiance = state.directIrradiance;
+    state.reached.assign(state.irradiance.size(), 0);
+    state.stage = BakeStage::directLight;
+}
+
+/// The field after zero bounces, or what the state goes on from.
+void begin(BakeState& state, Progress& progress, const BakeObserver& observe) {
+    checkParams(state.params);
+    layOut(state, progress);
+    observe(state);
+    if (state.stage > BakeStage::charts) return;
+    lightDirectly(state, progress, observe);
+    observe(state);
+}
+
+void addRadianceField(BakeState& state, LightField& field, Progress& progress,
+                      const BakeObserver& observe) {
     const BakeParams& p = state.params;
     if (p.radianceDirections == 0 || !hasMirrors(state.scene, field.charts)) return;
-    field.radiance = timed(state.report, progress, "radiance field", [&] {
-        return bakeRadiance(state.scene, state.rays, field,
-                            {p.radianceDirections, p.radianceCells, p.tileSize}, progress);
+    const RadianceParams params{p.radianceDirections, p.radianceCells, p.tileSize};
+    timed(state.report, progress, "radiance field", [&] {
+        while (!fillRadiance(state.scene, state.rays, field, params, state.radiance, progress))
+            observe(state);
     });
+    field.radiance = std::move(state.radiance.field);
+    state.radiance = {};
     state.report.radianceElements = field.radiance.elements.size();
 }
 
@@ -121,26 +164,8 @@ BakeParams presetParams(const std::string& name) {
 
 BakeState makeState(const Scene& scene, const BakeParams& params, Progress& progress,
                     const BakeObserver& observe) {
-    checkParams(params);
     BakeState state(scene, params);
-    state.frame = frameOf(scene);
-    state.unwrap = timed(state.report, progress, "charts", [&] {
-        return unwrap(scene, state.rays, {params.texelSize, params.texelBudget, params.seed},
-                      progress);
-    });
-    state.report.texels = state.unwrap.texels.size();
-    state.faces = makeBundleFaces(scene, state.unwrap, state.frame);
-    state.sources = findLightSources(scene, state.unwrap);
-    state.bentTexels = findBentTexels(scene, state.unwrap);
-    findReflectances(state);
-    observe(state, BakeStage::charts);
-    state.directIrradiance = timed(state.report, progress, "direct light", [&] {
-        return directIrradiance(scene, state.rays, state.unwrap, state.sources,
-                                {params.directSamples, params.seed}, progress);
-    });
-    state.irradiance = state.directIrradiance;
-    state.reached.assign(state.irradiance.size(), 0);
-    observe(state, BakeStage::directLight);
+    begin(state, progress, observe);
     return state;
 }
 
@@ -160,10 +185,10 @@ LightField unlitField(const BakeState& state) {
     return field;
 }
 
-LightField finish(BakeState& state, Progress& progress) {
+LightField finish(BakeState& state, Progress& progress, const BakeObserver& observe) {
     LightField field = unlitField(state);
     field.atlas = timed(state.report, progress, "atlas", [&] { return fillAtlas(state); });
-    addRadianceField(state, field, progress);
+    addRadianceField(state, field, progress, observe);
     state.report.energy = energyBalance(state);
     BakeRecord& r = field.record;
     r.radianceDirections = field.radiance.lines;
@@ -176,12 +201,18 @@ LightField finish(BakeState& state, Progress& progress) {
 }
 
 LightField bake(const Scene& scene, const BakeParams& params, Progress& progress,
-                BakeReport* report, const BakeObserver& observe) {
-    BakeState state = makeState(scene, params, progress, observe);
-    timed(state.report, progress, "bounces", [&] { propagate(state, progress, observe); });
-    LightField field = finish(state, progress);
-    if (report) *report = state.report;
-    return field;
+                BakeReport* report, const BakeObserver& observe, BakeSolution solution) {
+    BakeState state(scene, params, std::move(solution));
+    try {
+        begin(state, progress, observe);
+        timed(state.report, progress, "bounces", [&] { propagate(state, progress, observe); });
+        LightField field = finish(state, progress, observe);
+        if (report) *report = state.report;
+        return field;
+    } catch (const Cancelled&) {
+        observe(state);
+        throw;
+    }
 }
 
 }  // namespace vlf

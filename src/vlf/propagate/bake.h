@@ -4,6 +4,7 @@
 
 #include "vlf/base/progress.h"
 #include "vlf/field/light_field.h"
+#include "vlf/propagate/bake_solution.h"
 #include "vlf/propagate/bent_texels.h"
 #include "vlf/propagate/bundle_faces.h"
 #include "vlf/propagate/bundle_sweep.h"
@@ -15,6 +16,7 @@
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace vlf {
@@ -40,26 +42,14 @@ struct BakeParams {
 /// Parameters of "draft", "standard" or "high". Throws InputError for another name.
 BakeParams presetParams(const std::string& name);
 
-/// Seconds and counts, for people and benchmarks.
-struct BakeReport {
-    struct Stage {
-        std::string name;
-        double seconds = 0;     ///< wall clock
-        double cpuSeconds = 0;  ///< of all threads of the process
-    };
-    std::vector<Stage> stages;
-    std::size_t texels = 0;
-    std::size_t radianceElements = 0;
-    std::uint64_t exchanges = 0;
-    int sweeps = 0;
-    double residual = 1;  ///< estimated light still missing, relative
-    EnergyReport energy;
-};
-
-/// The solution under way. Irradiances and reflectances are per entry of unwrap.texels.
-struct BakeState {
-    BakeState(const Scene& sceneToBake, const BakeParams& bakeParams)
-        : scene(sceneToBake), params(bakeParams), rays(sceneToBake) {}
+/// A bake under way. Reflectances are per entry of unwrap.texels.
+struct BakeState : BakeSolution {
+    /// To go on from `solution`, which is of the same scene, parameters and instruction set.
+    BakeState(const Scene& sceneToBake, const BakeParams& bakeParams, BakeSolution solution = {})
+        : BakeSolution(std::move(solution)),
+          scene(sceneToBake),
+          params(bakeParams),
+          rays(sceneToBake) {}
 
     const Scene& scene;
     BakeParams params;
@@ -69,34 +59,26 @@ struct BakeState {
     BundleFaces faces;
     LightSources sources;
     std::vector<BentTexel> bentTexels;
-    std::vector<Vec3> reflectance;       ///< diffuse
-    std::vector<Vec3> absorptance;       ///< 1 - diffuse - mirror reflectance
-    std::vector<Vec3> directIrradiance;  ///< W·m⁻²
-    std::vector<Vec3> irradiance;        ///< W·m⁻²: direct and all bounces so far
-    std::vector<std::uint8_t> reached;   ///< whether any ray has met the texel
-    std::vector<TexelBuffer> parts;      ///< what the last sweep gathered, by sets of directions
-    BakeReport report;
+    std::vector<Vec3> reflectance;  ///< diffuse
+    std::vector<Vec3> absorptance;  ///< 1 - diffuse - mirror reflectance
 };
 
-/// How far a state has come.
-enum class BakeStage {
-    charts,       ///< charts, texels and light sources are known, light is not
-    directLight,  ///< the field after zero bounces
-    bounce,       ///< one more coarse bounce
-    settled       ///< the coarse bounces are done; the fine one follows
-};
-
-/// Is shown the states on the way, by the thread that bakes and between its parallel loops.
-using BakeObserver = std::function<void(const BakeState&, BakeStage)>;
-inline void unobserved(const BakeState&, BakeStage) {}
+/// Is shown the states on the way, by the thread that bakes and between its parallel loops: when
+/// the charts are known and a stage is reached, whenever a pause was due (Progress::pauseDue), and
+/// by bake() once more before it throws Cancelled. A copy of the state's solution is always fit to
+/// go on from.
+using BakeObserver = std::function<void(const BakeState&)>;
+inline void unobserved(const BakeState&) {}
 
 /// Charts, texels and direct light: the field after zero bounces. `scene` must outlive the state.
 BakeState makeState(const Scene& scene, const BakeParams& params, Progress& progress,
                     const BakeObserver& observe = unobserved);
 
 /// One bounce: every texel gathers the light that the others reflect, over `directions` lines (in
-/// random rotation `sweep`, or as they are if sweep < 0) of cells² rays.
-void propagateOnce(BakeState& state, int directions, int cells, int sweep, Progress& progress);
+/// random rotation `sweep`, or as they are if sweep < 0) of cells² rays. Goes on with a sweep that
+/// was left.
+void propagateOnce(BakeState& state, int directions, int cells, int sweep, Progress& progress,
+                   const BakeObserver& observe = unobserved);
 
 /// Coarse bounces until the light still missing is below the tolerance (or for
 /// params.maxBounces), then one fine one.
@@ -107,10 +89,12 @@ void propagate(BakeState& state, Progress& progress, const BakeObserver& observe
 LightField unlitField(const BakeState& state);
 
 /// The light field of the present solution.
-LightField finish(BakeState& state, Progress& progress);
+LightField finish(BakeState& state, Progress& progress, const BakeObserver& observe = unobserved);
 
-/// All of it. Throws InputError for parameters or a scene that cannot be baked, Cancelled.
+/// All of it, or what `solution` leaves to do of it, to the same bits. Throws InputError for
+/// parameters or a scene that cannot be baked or a solution of another one, Cancelled.
 LightField bake(const Scene& scene, const BakeParams& params, Progress& progress,
-                BakeReport* report = nullptr, const BakeObserver& observe = unobserved);
+                BakeReport* report = nullptr, const BakeObserver& observe = unobserved,
+                BakeSolution solution = {});
 
 }  // namespace vlf

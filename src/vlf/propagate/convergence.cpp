@@ -1,5 +1,7 @@
 #include "vlf/propagate/convergence.h"
 
+#include "vlf/propagate/bake.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -12,67 +14,70 @@ constexpr double kMinRate = 0.3, kMaxRate = 0.8;
 constexpr double kWorthExtrapolating = 0.01;  // flux growth; below, noise would be amplified
 }  // namespace
 
-Convergence::Convergence(const BakeState& state) : chartArea_(state.unwrap.charts.size(), 0) {
+Convergence::Convergence(BakeState& state)
+    : state_(state), history_(state.convergence), chartArea_(state.unwrap.charts.size(), 0) {
     for (std::size_t i = 0; i < state.unwrap.texels.size(); ++i) {
         chartArea_[state.unwrap.texelChart[i]] += state.unwrap.texelArea(i);
         totalArea_ += state.unwrap.texelArea(i);
     }
-    previous_ = chartIrradiance(state);
+    if (history_.charts.empty()) history_.charts = chartIrradiance();
 }
 
-std::vector<double> Convergence::chartIrradiance(const BakeState& state) const {
+std::vector<double> Convergence::chartIrradiance() const {
     std::vector<double> sum(chartArea_.size(), 0);
-    for (std::size_t i = 0; i < state.unwrap.texels.size(); ++i)
-        sum[state.unwrap.texelChart[i]] +=
-            static_cast<double>(state.unwrap.texelArea(i)) * luminance(state.irradiance[i]);
+    for (std::size_t i = 0; i < state_.unwrap.texels.size(); ++i)
+        sum[state_.unwrap.texelChart[i]] +=
+            static_cast<double>(state_.unwrap.texelArea(i)) * luminance(state_.irradiance[i]);
     return sum;
 }
 
-void Convergence::update(BakeState& state) {
-    const std::vector<double> now = chartIrradiance(state);
+void Convergence::update() {
+    const std::vector<double> now = chartIrradiance();
     double growth = 0, flux = 0, fluxGrowth = 0;
     for (std::size_t c = 0; c < now.size(); ++c) {
-        if (now[c] > 0) growth += chartArea_[c] * (now[c] - previous_[c]) / now[c];
+        if (now[c] > 0) growth += chartArea_[c] * (now[c] - history_.charts[c]) / now[c];
         flux += now[c];
-        fluxGrowth += now[c] - previous_[c];
+        fluxGrowth += now[c] - history_.charts[c];
     }
-    growth_.push_back({growth / totalArea_, flux > 0 ? fluxGrowth / flux : 0});
-    ++bounces_;
-    if (growth_.size() == kWindow) judge(state, now);
-    previous_ = chartIrradiance(state);
+    history_.growth.push_back({growth / totalArea_, flux > 0 ? fluxGrowth / flux : 0});
+    ++history_.bounces;
+    if (history_.growth.size() == kWindow) judge(now);
+    history_.charts = chartIrradiance();
 }
 
-void Convergence::judge(BakeState& state, const std::vector<double>& now) {
-    const bool worthwhile = std::abs(growth_[2].flux) > kWorthExtrapolating;
-    if (worthwhile) rate_ = std::clamp(growth_[2].flux / growth_[1].flux, kMinRate, kMaxRate);
+void Convergence::judge(const std::vector<double>& now) {
+    const bool worthwhile = std::abs(history_.growth[2].flux) > kWorthExtrapolating;
+    if (worthwhile)
+        history_.rate =
+            std::clamp(history_.growth[2].flux / history_.growth[1].flux, kMinRate, kMaxRate);
     // The sum of successive differences: the sweeps' noise cancels but for its ends.
     double sum = 0;
-    for (const Growth& g : growth_) sum += g.relative;
-    residual_ = std::abs(sum) / kWindow * rate_ / (1 - rate_);
+    for (const ConvergenceHistory::Growth& g : history_.growth) sum += g.relative;
+    history_.residual = std::abs(sum) / kWindow * history_.rate / (1 - history_.rate);
     if (worthwhile)
-        extrapolate(state, now);
+        extrapolate(now);
     else
-        growth_.erase(growth_.begin());
+        history_.growth.erase(history_.growth.begin());
 }
 
-void Convergence::extrapolate(BakeState& state, const std::vector<double>& now) {
+void Convergence::extrapolate(const std::vector<double>& now) {
     // By chart: the growth of single texels is mostly noise.
-    const double gain = rate_ / (1 - rate_);
-    for (std::size_t i = 0; i < state.irradiance.size(); ++i) {
-        const std::uint32_t c = state.unwrap.texelChart[i];
-        const double scale = now[c] > 0 ? 1 + gain * (now[c] - previous_[c]) / now[c] : 1;
-        state.irradiance[i] *= static_cast<float>(std::max(scale, 0.5));
+    const double gain = history_.rate / (1 - history_.rate);
+    for (std::size_t i = 0; i < state_.irradiance.size(); ++i) {
+        const std::uint32_t c = state_.unwrap.texelChart[i];
+        const double scale = now[c] > 0 ? 1 + gain * (now[c] - history_.charts[c]) / now[c] : 1;
+        state_.irradiance[i] *= static_cast<float>(std::max(scale, 0.5));
     }
-    growth_.clear();
+    history_.growth.clear();
 }
 
 double Convergence::residualAfter(int sweeps) const {
-    return residual_ * std::pow(rate_, sweeps);
+    return history_.residual * std::pow(history_.rate, sweeps);
 }
 
 bool Convergence::reached(int maxBounces, double tolerance) const {
-    if (maxBounces > 0) return bounces_ >= maxBounces;
-    return residual_ < tolerance || bounces_ >= kMaxSweeps;
+    if (maxBounces > 0) return history_.bounces >= maxBounces;
+    return history_.residual < tolerance || history_.bounces >= kMaxSweeps;
 }
 
 }  // namespace vlf

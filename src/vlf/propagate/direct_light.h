@@ -3,11 +3,13 @@
 // Sampled apart from the bundles, which would need a hundred times the rays to find small
 // emitters.
 
-#include "vlf/base/progress.h"
+#include "vlf/base/resumable_loop.h"
+#include "vlf/propagate/direct_refinement.h"
 #include "vlf/propagate/light_sources.h"
 #include "vlf/trace/ray_scene.h"
 #include "vlf/unwrap/unwrap.h"
 
+#include <cstdint>
 #include <vector>
 
 namespace vlf {
@@ -18,10 +20,21 @@ struct DirectLightParams {
     std::uint64_t seed = 0;
 };
 
-/// Irradiance (W·m⁻²) at each of unwrap.texels. Unbiased but for the ratio estimator's O(1/n).
-/// Throws Cancelled.
-std::vector<Vec3> directIrradiance(const Scene& scene, const RayScene& rays, const Unwrap& unwrap,
-                                   const LightSources& sources, const DirectLightParams& params,
-                                   Progress& progress);
+/// Texels are worked off in blocks of so many.
+inline constexpr std::size_t kDirectBlock = 64;
+
+/// Direct light, complete or under way.
+struct DirectLight {
+    std::vector<DirectEstimate> estimates;  ///< of unwrap.texels
+    std::vector<DirectEstimate> before;  ///< those before the pass, which tell it where to refine
+    std::int32_t pass = 0;               ///< the first and kRefinementPasses more
+    LoopMarks done;                      ///< blocks of the pass
+};
+
+/// Goes on until `light` is complete (true) or a pause is due (false). The estimates are unbiased
+/// but for the ratio estimator's O(1/n). Throws Cancelled; then, too, it can be gone on with.
+bool findDirectLight(const Scene& scene, const RayScene& rays, const Unwrap& unwrap,
+                     const LightSources& sources, const DirectLightParams& params,
+                     DirectLight& light, Progress& progress);
 
 }  // namespace vlf

@@ -8,6 +8,9 @@
 // a ratio: no cell areas and no solid angles, and a white furnace is exact. One sweep over a set of
 // directions is one bounce of all light (a Jacobi iteration). Coarse sweeps, each in a new random
 // rotation, bring the light to rest; a fine one then gives every texel its value.
+//
+// How far it is lies in the state alone. The long loops end early when a pause is due, the state is
+// shown to the observer, and they go on; a state that was kept then goes on the same way.
 
 #include "vlf/base/parallel.h"
 #include "vlf/field/direction_set.h"
@@ -24,12 +27,7 @@ namespace vlf {
 
 namespace {
 
-/// Directions are dealt to this many accumulators, added up in order: the sum is the same for any
-/// number of threads.
-constexpr std::size_t kAccumulators = 8;
-
 constexpr int kMinSamples = 64;
-constexpr std::size_t kTexelsPerBlock = 256;
 
 bool isBlack(const Material& material) {
     return maxComponent(material.diffuse) <= 0;
@@ -52,52 +50,77 @@ TexelBuffer emit(const BakeState& state) {
     return radiance;
 }
 
-/// Sweeps every bundle and gathers what the texels see, in the kAccumulators parts of the state.
-void sweep(BakeState& state, const DirectionSet& directions, int cells, int rotation,
-           const TexelBuffer& radiance, Progress& progress) {
-    std::vector<TexelBuffer>& gathered = state.parts;
-    gathered.resize(kAccumulators);
-    std::vector<std::uint64_t> exchanges(kAccumulators, 0);
+/// Lines that the accumulators have swept.
+std::size_t linesSwept(const Sweep& sweep) {
+    std::size_t sum = 0;
+    for (std::size_t a = 0; a < kAccumulators; ++a) sum += (sweep.nextLine[a] - a) / kAccumulators;
+    return sum;
+}
+
+void beginSweep(BakeState& state) {
+    Sweep& s = state.sweep;
+    s.nextLine.resize(kAccumulators);
+    parallelFor(kAccumulators, [&](std::size_t a) {
+        s.nextLine[a] = static_cast<std::uint32_t>(a);
+        s.exchanges[a] = 0;
+        s.bent[a].assign(state.bentTexels.size(), {});
+        s.parts[a].reset(state.unwrap.atlasSize());
+    });
+    s.gathered = {};
+    s.toppedUp.clear();
+}
+
+/// Sweeps the bundles that are left and gathers what the texels see, in the parts of the state's
+/// sweep. Whether all are done; else a pause is due.
+bool sweepBundles(BakeState& state, const DirectionSet& directions, int cells, int rotation,
+                  const TexelBuffer& radiance, Progress& progress) {
+    Sweep& s = state.sweep;
     const std::uint64_t seed =
         mixBits(state.params.seed) + static_cast<std::uint64_t>(rotation + 1);
     RandomStream turns(seed, ~0ull);
     const Mat3 turn =
         rotation < 0 ? Mat3(1) : sampleUniformRotation(Vec3(turns.next2(), turns.next()));
-    const auto lines = static_cast<std::size_t>(directions.lineCount());
-    ProgressCounter done(progress, lines);
+    const auto lines = static_cast<std::uint32_t>(directions.lineCount());
+    ProgressCounter done(progress, lines, linesSwept(s));
     parallelFor(kAccumulators, [&](std::size_t a) {
-        gathered[a].reset(state.unwrap.atlasSize());
         SweepScratch scratch;
         RayGatherer mirrors(state.scene, state.rays, state.unwrap, state.sources);
         std::vector<MirrorSight> sights;
-        BentSums bent(state.bentTexels);
-        for (std::size_t line = a; line < lines; line += kAccumulators) {
+        BentSums bent(state.bentTexels, s.bent[a]);
+        while (s.nextLine[a] < lines) {
+            if (done.pauseDue()) return;
+            const std::uint32_t line = s.nextLine[a];
             RandomStream random(seed, line);
-            const Vec3 direction = turn * directions.direction(static_cast<std::uint32_t>(line));
+            const Vec3 direction = turn * directions.direction(line);
             const float roll = 2 * kPi * random.next();
             const ParallelSubfield subfield =
                 makeSubfield(state.frame, direction, cells, roll, random.next2());
             sights.clear();
-            exchanges[a] +=
-                sweepBundle(state.faces, subfield, radiance, gathered[a], sights, scratch);
-            mirrors.gatherFromMirrors(subfield, sights, radiance, gathered[a]);
-            bent.take(direction, gathered[a]);
+            s.exchanges[a] +=
+                sweepBundle(state.faces, subfield, radiance, s.parts[a], sights, scratch);
+            mirrors.gatherFromMirrors(subfield, sights, radiance, s.parts[a]);
+            bent.take(direction, s.parts[a]);
+            s.nextLine[a] += kAccumulators;
             done.step();
         }
-        bent.putBack(gathered[a]);
+        bent.putBack(s.parts[a]);
     });
-    for (const std::uint64_t n : exchanges) state.report.exchanges += n;
+    return std::all_of(s.nextLine.begin(), s.nextLine.end(),
+                       [&](std::uint32_t next) { return next >= lines; });
 }
 
 /// Texels that fewer rays of the bundles met, small ones and those at the ends of charts, gather
-/// the rest by rays of their own.
-void topUp(const BakeState& state, const TexelBuffer& radiance, TexelBuffer& gathered) {
+/// the rest by rays of their own. Whether all have; else a pause is due.
+bool topUp(BakeState& state, const TexelBuffer& radiance, Progress& progress) {
+    TexelBuffer& gathered = state.sweep.gathered;
+    LoopMarks& done = state.sweep.toppedUp;
     const std::vector<std::uint32_t>& texels = state.unwrap.texels;
-    const std::size_t blocks = (texels.size() + kTexelsPerBlock - 1) / kTexelsPerBlock;
-    parallelFor(blocks, [&](std::size_t block) {
+    const std::size_t blocks = (texels.size() + kTopUpBlock - 1) / kTopUpBlock;
+    ProgressCounter counter(progress, blocks, countDone(done));
+    return resumeLoop(done, blocks, 1, counter, [&](std::size_t block) {
         RayGatherer gatherer(state.scene, state.rays, state.unwrap, state.sources);
-        const std::size_t end = std::min(texels.size(), (block + 1) * kTexelsPerBlock);
-        for (std::size_t i = block * kTexelsPerBlock; i < end; ++i) {
+        const std::size_t end = std::min(texels.size(), (block + 1) * kTopUpBlock);
+        for (std::size_t i = block * kTopUpBlock; i < end; ++i) {
             const int missing = kMinSamples - static_cast<int>(gathered.weight(texels[i]));
             if (missing <= 0) continue;
             RandomStream random(mixBits(state.params.seed), texels[i]);
@@ -119,50 +142,79 @@ void deposit(BakeState& state, const TexelBuffer& gathered) {
 
 }  // namespace
 
-void propagateOnce(BakeState& state, int directions, int cells, int rotation, Progress& progress) {
+void propagateOnce(BakeState& state, int directions, int cells, int rotation, Progress& progress,
+                   const BakeObserver& observe) {
+    if (state.sweep.nextLine.empty()) beginSweep(state);
     const TexelBuffer radiance = emit(state);
-    sweep(state, DirectionSet(directions), cells, rotation, radiance, progress);
-    TexelBuffer gathered = sumInOrder(state.parts);
+    while (!sweepBundles(state, DirectionSet(directions), cells, rotation, radiance, progress))
+        observe(state);
+    Sweep& s = state.sweep;
+    if (s.gathered.empty()) s.gathered = sumInOrder(s.parts);
     if (rotation < 0) {
-        topUp(state, radiance, gathered);
-        smoothIndirect(state.unwrap, state.parts, gathered);
+        while (!topUp(state, radiance, progress)) observe(state);
+        smoothIndirect(state.unwrap, s.parts, s.gathered);
     }
-    deposit(state, gathered);
+    deposit(state, s.gathered);
+    for (const std::uint64_t n : s.exchanges) state.report.exchanges += n;
     ++state.report.sweeps;
+    s.nextLine.clear();
 }
 
 namespace {
 
+/// Bounces until the light still missing is below the tolerance.
+void bounce(BakeState& state, Convergence& convergence, Progress& progress,
+            const BakeObserver& observe) {
+    const BakeParams& p = state.params;
+    while (!convergence.reached(p.maxBounces, p.tolerance)) {
+        propagateOnce(state, p.coarseDirections, p.coarseCells, state.report.sweeps, progress,
+                      observe);
+        convergence.update();
+        state.report.residual = convergence.residualAfter(0);
+        state.stage = BakeStage::bounce;
+        observe(state);
+    }
+}
+
 /// Takes the mean over sweeps after as many more that only bring what is still missing. The noise
 /// of each is slight, but alike over whole charts, and the last sweep would hand it on.
-void settle(BakeState& state, Progress& progress) {
+void settle(BakeState& state, Progress& progress, const BakeObserver& observe) {
     const BakeParams& p = state.params;
-    std::vector<Vec3> sum(state.irradiance.size(), Vec3(0));
-    for (int i = 0; i < 2 * p.settlingSweeps; ++i) {
-        propagateOnce(state, p.coarseDirections, p.coarseCells, state.report.sweeps, progress);
-        if (i < p.settlingSweeps) continue;
-        for (std::size_t t = 0; t < sum.size(); ++t) sum[t] += state.irradiance[t];
+    Settling& s = state.settling;
+    s.sum.resize(state.irradiance.size(), Vec3(0));
+    while (s.sweeps < 2 * p.settlingSweeps) {
+        propagateOnce(state, p.coarseDirections, p.coarseCells, state.report.sweeps, progress,
+                      observe);
+        if (++s.sweeps <= p.settlingSweeps) continue;
+        for (std::size_t t = 0; t < s.sum.size(); ++t) s.sum[t] += state.irradiance[t];
     }
-    for (std::size_t t = 0; t < sum.size(); ++t)
-        state.irradiance[t] = sum[t] / static_cast<float>(p.settlingSweeps);
+    for (std::size_t t = 0; t < s.sum.size(); ++t)
+        state.irradiance[t] = s.sum[t] / static_cast<float>(p.settlingSweeps);
+    s = {};
+}
+
+/// Coarse bounces: everything but the last sweep.
+void bringToRest(BakeState& state, Progress& progress, const BakeObserver& observe) {
+    const BakeParams& p = state.params;
+    Convergence convergence(state);
+    bounce(state, convergence, progress, observe);
+    const int settling = p.maxBounces == 0 ? p.settlingSweeps : 0;
+    if (settling > 0) settle(state, progress, observe);
+    state.report.residual = convergence.residualAfter(settling);
+    state.stage = BakeStage::settled;
+    observe(state);
 }
 
 }  // namespace
 
 void propagate(BakeState& state, Progress& progress, const BakeObserver& observe) {
     const BakeParams& p = state.params;
-    Convergence convergence(state);
-    while (!convergence.reached(p.maxBounces, p.tolerance)) {
-        propagateOnce(state, p.coarseDirections, p.coarseCells, state.report.sweeps, progress);
-        convergence.update(state);
-        state.report.residual = convergence.residualAfter(0);
-        observe(state, BakeStage::bounce);
-    }
-    const int settling = p.maxBounces == 0 ? p.settlingSweeps : 0;
-    if (settling > 0) settle(state, progress);
-    state.report.residual = convergence.residualAfter(settling);
-    observe(state, BakeStage::settled);
-    propagateOnce(state, p.directions, p.cells, -1, progress);
+    if (state.stage < BakeStage::settled) bringToRest(state, progress, observe);
+    if (state.stage == BakeStage::solved) return;
+    propagateOnce(state, p.directions, p.cells, -1, progress, observe);
+    state.sweep = {};
+    state.stage = BakeStage::solved;
+    observe(state);
 }
 
 }  // namespace vlf

@@ -9,6 +9,7 @@
 #include <bit>
 #include <cmath>
 #include <string>
+#include <utility>
 
 namespace vlf {
 
@@ -46,9 +47,9 @@ std::vector<TileRow> rowsOf(std::uint32_t chart, const TileCover& cover) {
     return rows;
 }
 
-/// A field of the given charts with its rows but without elements.
-RadianceField layOut(const Scene& scene, const LightField& field, const DirectionSet& directions,
-                     const std::vector<MirrorChart>& mirrors, const RadianceParams& params) {
+/// The rows of a field of the given charts.
+RadianceField makeRows(const Scene& scene, const LightField& field, const DirectionSet& directions,
+                       const std::vector<MirrorChart>& mirrors, const RadianceParams& params) {
     RadianceField radiance;
     radiance.lines = params.lines;
     radiance.cells = params.cells;
@@ -85,6 +86,19 @@ std::uint64_t elementCount(const RadianceField& radiance) {
     return last.firstElement + radiance.tileElements() * last.tilesWide;
 }
 
+/// Gives the field its rows, and elements unless it has those of a bake that was left.
+void layOut(RadianceField& radiance, const Scene& scene, const LightField& field,
+            const DirectionSet& directions, const std::vector<MirrorChart>& mirrors,
+            const RadianceParams& params) {
+    std::vector<RadianceElement> elements = std::move(radiance.elements);
+    radiance = makeRows(scene, field, directions, mirrors, params);
+    if (elements.empty())
+        elements.resize(elementCount(radiance));
+    else if (elements.size() != elementCount(radiance))
+        throw InputError("what was baked of the radiance field before is not of this scene");
+    radiance.elements = std::move(elements);
+}
+
 std::uint16_t packDistance(float distance, float longest) {
     if (distance <= 0) return 0;
     return static_cast<std::uint16_t>(
@@ -97,23 +111,23 @@ RadianceSize radianceSize(const Scene& scene, const LightField& field,
                           const RadianceParams& params) {
     checkParams(params);
     const RadianceField radiance =
-        layOut(scene, field, DirectionSet(params.lines), mirrorCharts(scene, field), params);
+        makeRows(scene, field, DirectionSet(params.lines), mirrorCharts(scene, field), params);
     const std::uint64_t elements = elementCount(radiance);
     return {elements, elements * sizeof(RadianceElement) + radiance.rows.size() * sizeof(TileRow) +
                           radiance.firstRow.size() * sizeof(std::uint32_t)};
 }
 
-RadianceField bakeRadiance(const Scene& scene, const RayScene& rays, const LightField& field,
-                           const RadianceParams& params, Progress& progress) {
+bool fillRadiance(const Scene& scene, const RayScene& rays, const LightField& field,
+                  const RadianceParams& params, PartialRadiance& partial, Progress& progress) {
     checkParams(params);
     const std::vector<MirrorChart> mirrors = mirrorCharts(scene, field);
-    if (mirrors.empty()) return {};
+    if (mirrors.empty()) return true;
     const DirectionSet directions(params.lines);
-    RadianceField radiance = layOut(scene, field, directions, mirrors, params);
-    radiance.elements.resize(elementCount(radiance));
+    RadianceField& radiance = partial.field;
+    if (radiance.empty()) layOut(radiance, scene, field, directions, mirrors, params);
     const auto count = static_cast<std::size_t>(directions.directionCount());
-    ProgressCounter done(progress, count);
-    parallelFor(count, 4, [&](std::size_t i) {
+    ProgressCounter counter(progress, count, countDone(partial.done));
+    return resumeLoop(partial.done, count, 4, counter, [&](std::size_t i) {
         const auto d = static_cast<std::uint32_t>(i);
         const Vec3& toEye = directions.direction(d);
         const ParallelSubfield subfield = subfieldOf(field.frame, directions, d, params.cells);
@@ -131,9 +145,15 @@ RadianceField bakeRadiance(const Scene& scene, const RayScene& rays, const Light
                                         packDistance(views[c].distance, radiance.maxDistance)};
             }
         }
-        done.step();
     });
-    return radiance;
+}
+
+RadianceField bakeRadiance(const Scene& scene, const RayScene& rays, const LightField& field,
+                           const RadianceParams& params, Progress& progress) {
+    PartialRadiance radiance;
+    while (!fillRadiance(scene, rays, field, params, radiance, progress)) {
+    }
+    return std::move(radiance.field);
 }
 
 }  // namespace vlf

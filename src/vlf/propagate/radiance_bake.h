@@ -2,7 +2,7 @@
 // Fills the radiance field: for every direction and cell whose ray leaves a mirror, what is seen
 // in it and how far away.
 
-#include "vlf/base/progress.h"
+#include "vlf/base/resumable_loop.h"
 #include "vlf/field/light_field.h"
 #include "vlf/scene/scene.h"
 #include "vlf/trace/ray_scene.h"
@@ -26,7 +26,14 @@ struct RadianceSize {
 RadianceSize radianceSize(const Scene& scene, const LightField& field,
                           const RadianceParams& params);
 
-/// The radiance field of all charts whose material is a mirror. Of `field`, the charts, their
+/// A radiance field, complete or under way.
+struct PartialRadiance {
+    RadianceField field;  ///< elements of all directions, filled for those that are done
+    LoopMarks done;       ///< oriented directions
+};
+
+/// Makes the radiance field of all charts whose material is a mirror, until it is complete (true)
+/// or a pause is due (false). Of `field`, the charts, their
 /// triangles, the atlas and the frame are read. The subfield of a direction and of its opposite is
 /// makeSubfield(field.frame, direction of the line, cells).
 ///
@@ -35,7 +42,12 @@ RadianceSize radianceSize(const Scene& scene, const LightField& field,
 /// its own, whatever hides it, with a guard band: all cells whose square of twice the cell size
 /// touches it, so that bilinear interpolation on the chart finds its four cells. Deterministic for
 /// any number of threads. Empty if there is no mirror. Throws InputError for parameters out of
-/// range, Cancelled.
+/// range, or if elements that were made before are not of this field; Cancelled, after which, too,
+/// it can be gone on with.
+bool fillRadiance(const Scene& scene, const RayScene& rays, const LightField& field,
+                  const RadianceParams& params, PartialRadiance& radiance, Progress& progress);
+
+/// The same without a pause.
 RadianceField bakeRadiance(const Scene& scene, const RayScene& rays, const LightField& field,
                            const RadianceParams& params, Progress& progress);
 

@@ -44,7 +44,7 @@ class Smoother {
     Smoother(const Unwrap& unwrap, const std::vector<std::uint32_t>& chartOf, int stride)
         : pitch_(unwrap.atlasWidth), chartOf_(chartOf), stride_(stride) {}
 
-    Step step(const std::vector<TexelBuffer>& parts, const TexelBuffer& gathered,
+    Step step(std::span<const TexelBuffer> parts, const TexelBuffer& gathered,
               std::uint32_t texel) const {
         if (gathered.weight(texel) <= 0) return {};
         Vec3 sum(0);
@@ -117,7 +117,7 @@ void add(TexelBuffer& buffer, std::uint32_t texel, const Vec3& change) {
 
 }  // namespace
 
-void smoothIndirect(const Unwrap& unwrap, std::vector<TexelBuffer>& parts, TexelBuffer& gathered) {
+void smoothIndirect(const Unwrap& unwrap, std::span<TexelBuffer> parts, TexelBuffer& gathered) {
     const std::vector<std::uint32_t>& texels = unwrap.texels;
     std::vector<std::uint32_t> chartOf(unwrap.atlasSize(), kNoChart);
     for (std::size_t i = 0; i < texels.size(); ++i) chartOf[texels[i]] = unwrap.texelChart[i];

@@ -4,7 +4,7 @@
 #include "vlf/propagate/texel_buffer.h"
 #include "vlf/unwrap/unwrap.h"
 
-#include <vector>
+#include <span>
 
 namespace vlf {
 
@@ -13,6 +13,6 @@ namespace vlf {
 /// and then of those one further. How large noise is tells the spread of the same difference among
 /// `parts`, independent sets of directions; `gathered` holds all samples. Both are changed alike,
 /// their numbers of samples stay. Where light truly differs from texel to texel nothing is changed.
-void smoothIndirect(const Unwrap& unwrap, std::vector<TexelBuffer>& parts, TexelBuffer& gathered);
+void smoothIndirect(const Unwrap& unwrap, std::span<TexelBuffer> parts, TexelBuffer& gathered);
 
 }  // namespace vlf

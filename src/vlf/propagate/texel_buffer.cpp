@@ -4,7 +4,7 @@
 
 namespace vlf {
 
-TexelBuffer sumInOrder(const std::vector<TexelBuffer>& buffers) {
+TexelBuffer sumInOrder(std::span<const TexelBuffer> buffers) {
     constexpr std::size_t kBlock = 1 << 14;
     TexelBuffer sum = buffers.front();
     const std::size_t floats = 4 * (sum.texelCount() + 1);

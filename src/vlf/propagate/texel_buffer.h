@@ -3,7 +3,9 @@
 
 #include "vlf/math/vector.h"
 
+#include <array>
 #include <cstddef>
+#include <span>
 #include <vector>
 
 namespace vlf {
@@ -13,33 +15,36 @@ namespace vlf {
 /// outside of the scene.
 class TexelBuffer {
   public:
+    using Entry = std::array<float, 4>;
+
     TexelBuffer() = default;
-    explicit TexelBuffer(std::size_t texelCount) : values_(4 * (texelCount + 1), 0.0f) {}
+    explicit TexelBuffer(std::size_t texelCount) : entries_(texelCount + 1, Entry{}) {}
 
-    std::size_t texelCount() const { return values_.size() / 4 - 1; }
-    float* data() { return values_.data(); }
-    const float* data() const { return values_.data(); }
+    bool empty() const { return entries_.empty(); }
+    std::size_t texelCount() const { return entries_.size() - 1; }
+    std::vector<Entry>& entries() { return entries_; }
+    const std::vector<Entry>& entries() const { return entries_; }
+    float* data() { return entries_.data()->data(); }
+    const float* data() const { return entries_.data()->data(); }
 
-    Vec3 rgb(std::size_t i) const {
-        return {values_[4 * i], values_[4 * i + 1], values_[4 * i + 2]};
-    }
-    float weight(std::size_t i) const { return values_[4 * i + 3]; }
+    Vec3 rgb(std::size_t i) const { return {entries_[i][0], entries_[i][1], entries_[i][2]}; }
+    float weight(std::size_t i) const { return entries_[i][3]; }
     void set(std::size_t i, const Vec3& rgb, float weight) {
-        values_[4 * i] = rgb.x, values_[4 * i + 1] = rgb.y, values_[4 * i + 2] = rgb.z;
-        values_[4 * i + 3] = weight;
+        entries_[i] = {rgb.x, rgb.y, rgb.z, weight};
     }
     void add(std::size_t i, const Vec3& rgb, float weight) {
-        values_[4 * i] += rgb.x, values_[4 * i + 1] += rgb.y, values_[4 * i + 2] += rgb.z;
-        values_[4 * i + 3] += weight;
+        Entry& e = entries_[i];
+        e[0] += rgb.x, e[1] += rgb.y, e[2] += rgb.z;
+        e[3] += weight;
     }
     /// All zero, of this size; memory it has is kept.
-    void reset(std::size_t texelCount) { values_.assign(4 * (texelCount + 1), 0.0f); }
+    void reset(std::size_t texelCount) { entries_.assign(texelCount + 1, Entry{}); }
 
   private:
-    std::vector<float> values_;
+    std::vector<Entry> entries_;
 };
 
 /// Sum of equal-sized buffers, added in their order.
-TexelBuffer sumInOrder(const std::vector<TexelBuffer>& buffers);
+TexelBuffer sumInOrder(std::span<const TexelBuffer> buffers);
 
 }  // namespace vlf

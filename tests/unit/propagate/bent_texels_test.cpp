@@ -39,7 +39,8 @@ TEST(BentTexels, GatherAboutTheShadingNormal) {
     const Vec3 geometric(0, 1, 0), shading = glm::normalize(Vec3(0.3f, 1, -0.1f));
     const std::vector<BentTexel> bent{{1, shading, geometric}};
     const DirectionSet directions(2049);
-    BentSums sums(bent);
+    std::vector<BentSum> gatheredSoFar;
+    BentSums sums(bent, gatheredSoFar);
     TexelBuffer gathered(3);
     for (std::uint32_t i = 0; i < 2049; ++i) {
         const Vec3 d = directions.direction(i);

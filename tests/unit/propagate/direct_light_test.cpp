@@ -49,8 +49,10 @@ struct Lit {
     Lit(const Scene& sceneToLight, float texelSize, int samples)
         : scene(sceneToLight), rays(scene), unwrap(vlf::unwrap(scene, rays, {texelSize})) {
         Progress progress;
-        irradiance = directIrradiance(scene, rays, unwrap, findLightSources(scene, unwrap),
-                                      {samples, 1}, progress);
+        DirectLight light;
+        findDirectLight(scene, rays, unwrap, findLightSources(scene, unwrap), {samples, 1}, light,
+                        progress);
+        for (const DirectEstimate& e : light.estimates) irradiance.push_back(e.value);
     }
 
     /// Largest error of a texel of triangle 0's front, relative to the mean, against `expected`
@@ -214,8 +216,9 @@ TEST(DirectLight, CanBeCancelled) {
     const Unwrap charts = unwrap(scene, rays, {0.02f});
     Progress progress;
     progress.cancel();
-    EXPECT_ANY_THROW(
-        directIrradiance(scene, rays, charts, findLightSources(scene, charts), {16, 1}, progress));
+    DirectLight light;
+    EXPECT_ANY_THROW(findDirectLight(scene, rays, charts, findLightSources(scene, charts), {16, 1},
+                                     light, progress));
 }
 
 }  // namespace vlf::test
