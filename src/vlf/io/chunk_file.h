@@ -51,7 +51,10 @@ struct Chunk {
 /// number of threads.
 class ChunkFileWriter {
   public:
-    ChunkFileWriter();
+    /// 1: fast, to 22: small (Zstandard's). The level of field files is chosen on radiance: its
+    /// residuals are noise to a matcher, and short matches cost more than literals. Level 3 is 4 %
+    /// larger and 2.5 times as fast, level 9 is 1 % smaller and half as fast.
+    explicit ChunkFileWriter(int compressionLevel = 6);
 
     /// Adds a chunk: encode(i) returns block i of `blockCount` and is called in parallel.
     /// Names have 1 to 16 characters of ASCII and are unique.
@@ -65,6 +68,7 @@ class ChunkFileWriter {
     std::vector<std::uint8_t> take();
 
   private:
+    int compressionLevel_;
     std::vector<std::uint8_t> file_;
     std::vector<Chunk> chunks_;
 };

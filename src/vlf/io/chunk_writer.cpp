@@ -11,9 +11,7 @@ namespace vlf {
 
 namespace {
 
-/// Chosen on radiance: the residuals are noise to a matcher, and short matches cost more than
-/// literals. Level 3 is 4 % larger and 2.5 times as fast, level 9 is 1 % smaller and half as fast.
-constexpr int kCompressionLevel = 6, kMinMatch = 6;
+constexpr int kMinMatch = 6;
 
 /// Blocks compressed before they are appended: enough work for every thread, little memory.
 constexpr std::size_t kBatch = 256;
@@ -32,13 +30,13 @@ void padTo(std::vector<std::uint8_t>& frames, std::size_t size) {
     frames.resize(frames.size() + content);
 }
 
-std::vector<std::uint8_t> compress(const Block& block) {
+std::vector<std::uint8_t> compress(const Block& block, int level) {
     if (block.bytes.size() > kMaxBlockBytes || block.memoryBytes > kMaxBlockBytes)
         throw std::logic_error("a block of a field file is too large");
     const std::unique_ptr<ZSTD_CCtx, decltype(&ZSTD_freeCCtx)> context(ZSTD_createCCtx(),
                                                                        &ZSTD_freeCCtx);
     if (!context) throw std::bad_alloc();
-    ZSTD_CCtx_setParameter(context.get(), ZSTD_c_compressionLevel, kCompressionLevel);
+    ZSTD_CCtx_setParameter(context.get(), ZSTD_c_compressionLevel, level);
     ZSTD_CCtx_setParameter(context.get(), ZSTD_c_minMatch, kMinMatch);
     std::vector<std::uint8_t> frames(ZSTD_compressBound(block.bytes.size()));
     const std::size_t size = ZSTD_compress2(context.get(), frames.data(), frames.size(),
@@ -64,7 +62,8 @@ std::vector<std::uint8_t> tableOf(const std::vector<Chunk>& chunks) {
 
 }  // namespace
 
-ChunkFileWriter::ChunkFileWriter() : file_(kHeaderBytes) {}
+ChunkFileWriter::ChunkFileWriter(int compressionLevel)
+    : compressionLevel_(compressionLevel), file_(kHeaderBytes) {}
 
 void ChunkFileWriter::add(const std::string& name, std::size_t blockCount,
                           const std::function<Block(std::size_t)>& encode, bool critical) {
@@ -76,7 +75,7 @@ void ChunkFileWriter::add(const std::string& name, std::size_t blockCount,
         const std::size_t count = std::min(kBatch, blockCount - first);
         parallelFor(count, [&](std::size_t i) {
             const Block block = encode(first + i);
-            batch[i] = compress(block);
+            batch[i] = compress(block, compressionLevel_);
             chunk.blocks[first + i] = {0, static_cast<std::uint32_t>(batch[i].size()),
                                        static_cast<std::uint32_t>(block.bytes.size()),
                                        static_cast<std::uint32_t>(block.memoryBytes),

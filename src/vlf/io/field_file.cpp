@@ -1,6 +1,7 @@
 #include "vlf/io/field_file.h"
 
 #include "vlf/base/file.h"
+#include "vlf/io/checkpoint_file.h"
 #include "vlf/io/chunk_file.h"
 #include "vlf/io/light_field_chunks.h"
 #include "vlf/io/records.h"
@@ -70,6 +71,9 @@ void checkRoom(const BakedRoom& room, const std::string& path) {
 
 ChunkFileReader open(const std::string& path) {
     ChunkFileReader file(path);
+    if (file.has(kIdentityChunk))
+        throw InputError(SourceLocation{path, 0, ""},
+                         "is the checkpoint of an unfinished bake; finish it with bake --resume");
     file.rejectUnknown(kChunks);
     return file;
 }
