@@ -1,5 +1,6 @@
 // vlf bake: from scene files to a field file.
 
+#include "bake_checkpoint.h"
 #include "bake_options.h"
 #include "commands.h"
 #include "console.h"
@@ -17,6 +18,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -31,7 +33,9 @@ struct Options {
     std::vector<std::string> scenes;
     QualityOptions quality;
     std::string output, json, instructionSet;
-    double maxMemory = 0;  // GiB
+    double maxMemory = 0;         // GiB
+    double checkpointEvery = 60;  // seconds; 0: never
+    bool resume = false;
 };
 
 Scene readScene(const Options& options, const Globals& globals) {
@@ -53,7 +57,7 @@ double peakMebibytes() {
 }
 
 nlohmann::ordered_json toJson(const Options& options, const BakeReport& report,
-                              const BakeRecord& record, double seconds) {
+                              const BakeRecord& record, bool resumed, double seconds) {
     nlohmann::ordered_json stages = nlohmann::ordered_json::array();
     for (const BakeReport::Stage& s : report.stages)
         stages.push_back({{"name", s.name}, {"seconds", s.seconds}, {"cpuSeconds", s.cpuSeconds}});
@@ -76,6 +80,7 @@ nlohmann::ordered_json toJson(const Options& options, const BakeReport& report,
               {"absorbed", numbers(e.absorbed)},
               {"unshot", numbers(e.unshot)},
               {"escaped", numbers(e.escaped)}}},
+            {"resumed", resumed},
             {"stages", stages},
             {"seconds", seconds},
             {"peakMemoryMiB", peakMebibytes()}};
@@ -95,8 +100,21 @@ void printReport(const Options& options, const BakeReport& report, double second
     fmt::print("  {:.2f} s in all, peak memory {:.0f} MiB\n", seconds, peakMebibytes());
 }
 
+/// Writes the field, after which its checkpoint has had its day.
+void write(const Options& options, const BakedRoom& room, const BakeCheckpoint& checkpoint) {
+    try {
+        writeField(options.output, room);
+    } catch (const FileError& e) {
+        if (!checkpoint.exists()) throw;
+        throw Error(std::string(e.what()) + "; " + checkpoint.path() +
+                    " keeps the bake: make room and go on with --resume");
+    }
+    checkpoint.remove();
+}
+
 void run(const Options& options, const Globals& globals) {
     requireWritableOutputs({options.output, options.json});
+    const BakeOutput output(options.output);
     if (!options.instructionSet.empty()) useInstructionSet(options.instructionSet);
     const auto start = std::chrono::steady_clock::now();
     const BakeParams params = bakeParams(options.quality, globals);
@@ -105,19 +123,24 @@ void run(const Options& options, const Globals& globals) {
     if (options.maxMemory > 0)
         requireMemory(room.scene, params,
                       static_cast<std::uint64_t>(options.maxMemory * 1024 * 1024 * 1024));
+    const std::string hash = sceneHash(room.scene);
+    const BakeCheckpoint checkpoint(output.checkpointPath(), params, hash);
+    BakeSolution solution = beginning(checkpoint, options.resume, globals.quiet);
+    const bool resumed = options.resume && checkpoint.exists();
     BakeReport report;
     {
-        ConsoleProgress progress(globals.quiet);
-        room.field = bake(room.scene, params, progress, &report);
-        progress.check();
+        CheckpointProgress progress(globals.quiet, checkpoint, options.checkpointEvery);
+        const auto keep = [&](const BakeState& state) { progress.keep(state); };
+        room.field = bake(room.scene, params, progress, &report, keep, std::move(solution));
         progress.stage("writing");
         room.field.record.programVersion = VLF_VERSION;
-        room.field.record.sceneHash = sceneHash(room.scene);
-        writeField(options.output, room);
+        room.field.record.sceneHash = hash;
+        write(options, room, checkpoint);
     }
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
     if (!options.json.empty())
-        writeJson(options.json, toJson(options, report, room.field.record, seconds.count()));
+        writeJson(options.json,
+                  toJson(options, report, room.field.record, resumed, seconds.count()));
     if (!globals.quiet) printReport(options, report, seconds.count());
 }
 
@@ -135,12 +158,20 @@ void addBake(CLI::App& app, const Globals& globals) {
         ->check(CLI::PositiveNumber);
     command->add_option("--isa", options->instructionSet,
                         "Instruction set of the sweeps, e.g. AVX2 (default: the best there is)");
+    command
+        ->add_option("--checkpoint", options->checkpointEvery,
+                     "Seconds from checkpoint to checkpoint, from which --resume goes on (0: none)")
+        ->capture_default_str()
+        ->check(CLI::Range(0.0, 1e6));
+    command->add_flag("--resume", options->resume, "Go on with a bake that was interrupted");
     command->add_option("--json", options->json, "Write a report of times, counts and energy");
     command->footer(
         "Examples:\n"
         "  vlf bake room.obj -o room.vlf\n"
         "  vlf bake room.glb lights.obj -o room.vlf --preset high --texel 0.03\n"
-        "Ctrl-C stops; a field file that was there before is left as it was.");
+        "  vlf bake room.obj -o room.vlf --resume\n"
+        "Ctrl-C stops and keeps what is done in room.vlf.checkpoint, from which --resume goes on.\n"
+        "A field file that was there before is left as it was.");
     command->callback([options, &globals] { run(*options, globals); });
 }
 

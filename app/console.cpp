@@ -60,6 +60,11 @@ void ConsoleProgress::update(double fraction) {
     }
 }
 
+void ConsoleProgress::say(const std::string& text) {
+    if (quiet_) return;
+    fmt::print(stderr, "{}{}\n", terminal_ && !stage_.empty() ? "\n" : "", text);
+}
+
 void ConsoleProgress::draw(double fraction) {
     constexpr int kWidth = 30;
     const int filled = static_cast<int>(kWidth * fraction);

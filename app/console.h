@@ -19,6 +19,10 @@ class ConsoleProgress : public Progress {
     void stage(const std::string& name) override;
     void update(double fraction) override;
 
+  protected:
+    /// Prints a line, apart from the bar; nothing when quiet.
+    void say(const std::string& text);
+
   private:
     void draw(double fraction);
     void endStage();

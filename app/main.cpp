@@ -3,6 +3,7 @@
 #include "vlf/base/error.h"
 #include "vlf/base/parallel.h"
 
+#include <csignal>
 #include <cstdio>
 #include <memory>
 #include <new>
@@ -66,6 +67,7 @@ int run(CLI::App& app, int argc, char** argv) {
 int main(int argc, char** argv) {
     CLI::App app("Virtual light fields: bake a room's light once, walk through it in real time.",
                  "vlf");
+    std::signal(SIGXFSZ, SIG_IGN);  // a file beyond its limit is an error of writing it
     app.set_version_flag("--version", "vlf " VLF_VERSION);
     app.require_subcommand(1);
     app.fallthrough();

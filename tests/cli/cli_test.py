@@ -453,7 +453,8 @@ class Interrupt(Case):
 
     def test_a_bake_leaves_the_old_file(self):
         self.bake("room.vlf")
-        bake = ["bake", "cornell.obj", "-o", "room.vlf", "--preset", "high", "--json", "bake.json"]
+        bake = ["bake", "cornell.obj", "-o", "room.vlf", "--preset", "high", "--json", "bake.json",
+                "--checkpoint", "0"]
         (self.folder / "bake.json").write_text("old")
         self.leaves_alone("room.vlf", "direct light", *bake, "--texel", "0.01", "--direct-samples",
                           "4096")
@@ -465,7 +466,7 @@ class Interrupt(Case):
         self.run_vlf("scene", "mirror-room", "--triangles", "1000", "-o", ".")
         self.leaves_alone("room.vlf", "radiance field", "bake", "mirror-room.obj", "-o", "room.vlf",
                           "--preset", "draft", "--texel", "0.3", "--radiance-directions", "8193",
-                          "--radiance-cells", "512")
+                          "--radiance-cells", "512", "--checkpoint", "0")
 
     def test_a_still_leaves_the_old_picture(self):
         self.bake("room.vlf")
