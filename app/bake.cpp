@@ -112,6 +112,13 @@ void write(const Options& options, const BakedRoom& room, const BakeCheckpoint& 
     checkpoint.remove();
 }
 
+/// Empty if the text is an interval, else what is wrong with it (a CLI11 validator).
+std::string checkInterval(const std::string& text) {
+    double seconds = 0;
+    const bool fine = CLI::detail::lexical_cast(text, seconds) && seconds >= 0 && seconds <= 1e6;
+    return fine ? "" : "must be seconds, from 0 to 1000000";
+}
+
 void run(const Options& options, const Globals& globals) {
     requireWritableOutputs({options.output, options.json});
     const BakeOutput output(options.output);
@@ -162,7 +169,7 @@ void addBake(CLI::App& app, const Globals& globals) {
         ->add_option("--checkpoint", options->checkpointEvery,
                      "Seconds from checkpoint to checkpoint, from which --resume goes on (0: none)")
         ->capture_default_str()
-        ->check(CLI::Range(0.0, 1e6));
+        ->check(checkInterval);
     command->add_flag("--resume", options->resume, "Go on with a bake that was interrupted");
     command->add_option("--json", options->json, "Write a report of times, counts and energy");
     command->footer(

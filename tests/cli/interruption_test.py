@@ -20,19 +20,30 @@ LONGEST = 20  # seconds until an interrupted program ends, on a busy machine and
 class Bakes(Case):
     """Bakes of a room with a mirror that take about a second in each stage."""
 
-    BAKE = ["bake", "mirror-room.obj", "-o", "room.vlf", "--preset", "draft", "--texel", "0.1",
-            "--direct-samples", "8", "--cells", "256", "--radiance-directions", "2049"]
+    OPTIONS = {"-o": "room.vlf", "--preset": "draft", "--texel": "0.1", "--direct-samples": "8",
+               "--cells": "256", "--radiance-directions": "2049", "--checkpoint": "60"}
     STAGES = ["direct light", "bounces", "radiance field"]
+    whole_field = None
 
     def setUp(self):
         super().setUp()
         self.run_vlf("scene", "mirror-room", "--triangles", "1000", "-o", ".")
         self.scene = self.files()
 
+    def command(self, *flags, **options):
+        """The command with other options: texel="0.2" for --texel 0.2."""
+        changed = {"-o" if k == "output" else "--" + k.replace("_", "-"): v
+                   for k, v in options.items()}
+        pairs = {**self.OPTIONS, **changed}
+        return ["bake", "mirror-room.obj", *[word for pair in pairs.items() for word in pair],
+                *flags]
+
     def whole(self):
         """The bytes of the field, baked in one go."""
-        self.run_vlf(*self.BAKE, "--checkpoint", "0")
-        return self.take()
+        if not Bakes.whole_field:
+            self.run_vlf(*self.command(checkpoint="0"))
+            Bakes.whole_field = self.take()
+        return Bakes.whole_field
 
     def take(self):
         """The bytes of the field, which is removed; nothing else may be left."""
@@ -42,24 +53,24 @@ class Bakes(Case):
         field.unlink()
         return content
 
-    def start(self, *options):
-        return subprocess.Popen([PROGRAM, *self.BAKE, *options], cwd=self.folder, text=True,
-                                stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+    def start(self, *flags, **options):
+        return subprocess.Popen([PROGRAM, *self.command(*flags, **options)], cwd=self.folder,
+                                text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
 
-    def wait_for(self, process, stage):
-        """Reads what the process says until the stage has begun, or all of it."""
+    def wait_for(self, process, *stages):
+        """Reads what the process says until one of the stages has begun, or all of it."""
         said = ""
         for line in process.stdout:
             said += line
-            if line.startswith(stage):
+            if line.startswith(stages):
                 break
         return said
 
-    def interrupted_in(self, stage, number=signal.SIGINT, options=()):
+    def interrupted_in(self, stage, *flags, number=signal.SIGINT, **options):
         """What a bake says that is interrupted when the stage has begun."""
-        process = self.start(*options)
+        process = self.start(*flags, **options)
         said = self.wait_for(process, stage)
-        time.sleep(0.1)
+        time.sleep(0.05)
         process.send_signal(number)
         rest, _ = process.communicate(timeout=LONGEST)
         self.assertEqual(process.returncode, INTERRUPTED, said + rest)
@@ -69,63 +80,61 @@ class Bakes(Case):
 class Resume(Bakes):
     def test_whenever_a_bake_is_killed_it_goes_on_to_the_same_bits(self):
         whole = self.whole()
-        seconds = random.Random(7)
+        chance = random.Random(7)
         kills = resumed = 0
-        for round in range(6):
-            for attempt in range(100):
-                process = self.start("--resume", "--checkpoint", "0.02", "--threads",
-                                     str(1 + (round + attempt) % 3))
+        for first in range(3):
+            ended, attempt = False, 0
+            while not ended:
+                process = self.start("--resume", "--threads", str(1 + (first + attempt) % 3),
+                                     checkpoint="0.02")
+                said = self.wait_for(process, "direct light", "bounces")
                 try:
-                    said, _ = process.communicate(timeout=0.2 + 1.5 * seconds.random())
+                    # Longer and longer: on however busy a machine one of them gets somewhere.
+                    rest, _ = process.communicate(timeout=(0.3 + 0.1 * attempt) * chance.random())
+                    ended = True
                 except subprocess.TimeoutExpired:
                     process.kill()
-                    said, _ = process.communicate()
+                    rest, _ = process.communicate()
                     kills += 1
                 resumed += "going on from" in said
-                self.assertNotIn("error", said)
-                if process.returncode == 0:
-                    break
+                self.assertNotIn("error", said + (rest or ""))
+                attempt += 1
             self.assertEqual(process.returncode, 0, said)
             self.assertEqual(self.take(), whole)
-        self.assertGreater(kills, 10)
-        self.assertGreater(resumed, 5)
+        self.assertGreater(kills, 6)
+        self.assertGreater(resumed, 6)
 
-    def test_a_bake_interrupted_in_any_stage_goes_on_to_the_same_bits(self):
-        whole = self.whole()
-        for stage in self.STAGES:
-            for number in (signal.SIGINT, signal.SIGTERM):
-                said = self.interrupted_in(stage, number)
+    def test_a_bake_interrupted_in_stage_after_stage_goes_on_to_the_same_bits(self):
+        for number in (signal.SIGINT, signal.SIGTERM):
+            flags = []
+            for stage in self.STAGES:
+                said = self.interrupted_in(stage, *flags, number=number)
                 self.assertIn(f"{CHECKPOINT} keeps the bake: go on with --resume", said)
                 self.assertEqual(self.files(), sorted([*self.scene, CHECKPOINT]))
-                self.run_vlf(*self.BAKE, "--resume", says=[f"going on from {CHECKPOINT}"])
-                self.assertEqual(self.take(), whole)
-
-    def test_a_bake_may_be_interrupted_again_and_again(self):
-        whole = self.whole()
-        for stage in self.STAGES:
-            self.interrupted_in(stage, options=["--resume"])
-        self.run_vlf(*self.BAKE, "--resume", "--json", "bake.json")
-        self.assertTrue(self.json("bake.json")["resumed"])
-        (self.folder / "bake.json").unlink()
-        self.assertEqual(self.take(), whole)
+                flags = ["--resume"]
+            self.run_vlf(*self.command("--resume", "--json", "bake.json"),
+                         says=[f"going on from {CHECKPOINT}: the radiance field"])
+            self.assertTrue(self.json("bake.json")["resumed"])
+            (self.folder / "bake.json").unlink()
+            self.assertEqual(self.take(), self.whole())
 
     def test_interrupted_before_there_is_light_nothing_is_kept(self):
-        self.interrupted_in("charts", options=["--texel", "0.002"])
+        self.interrupted_in("charts", texel="0.005")
         self.assertEqual(self.files(), self.scene)
 
     def test_without_checkpoints_nothing_is_kept(self):
-        self.assertNotIn("--resume", self.interrupted_in("bounces", options=["--checkpoint", "0"]))
+        self.assertNotIn("--resume", self.interrupted_in("bounces", checkpoint="0"))
         self.assertEqual(self.files(), self.scene)
 
     def test_with_nothing_to_resume_a_bake_begins_anew(self):
-        self.run_vlf(*self.BAKE, "--resume", "--json", "bake.json",
+        self.run_vlf(*self.command("--resume", "--json", "bake.json"),
                      says=["no checkpoint to resume from"])
         self.assertFalse(self.json("bake.json")["resumed"])
 
     def test_a_checkpoint_is_not_lost_by_a_bake_that_begins_anew(self):
         self.interrupted_in("bounces")
         kept = (self.folder / CHECKPOINT).read_bytes()
-        self.run_vlf(*self.BAKE, code=BAD_INPUT, says=[CHECKPOINT, "--resume", "delete"])
+        self.run_vlf(*self.command(), code=BAD_INPUT, says=[CHECKPOINT, "--resume", "delete"])
         self.assertEqual((self.folder / CHECKPOINT).read_bytes(), kept)
         self.assertEqual(self.files(), sorted([*self.scene, CHECKPOINT]))
 
@@ -134,8 +143,7 @@ class Resume(Bakes):
         (self.folder / "link.vlf").symlink_to("room.vlf")
         (self.folder / "room.vlf").write_text("old")
         self.interrupted_in("bounces")
-        by_link = [o if o != "room.vlf" else "link.vlf" for o in self.BAKE]
-        self.run_vlf(*by_link, "--resume", says=["going on from"])
+        self.run_vlf(*self.command("--resume", output="link.vlf"), says=["going on from"])
         self.assertTrue((self.folder / "link.vlf").is_symlink())
         (self.folder / "link.vlf").unlink()
         self.assertEqual(self.take(), whole)
@@ -147,8 +155,8 @@ class Refusal(Bakes):
         self.interrupted_in("bounces")
         self.kept = (self.folder / CHECKPOINT).read_bytes()
 
-    def refused(self, *options, says):
-        self.run_vlf(*self.BAKE, "--resume", *options, code=BAD_INPUT,
+    def refused(self, *flags, says=(), **options):
+        self.run_vlf(*self.command("--resume", *flags, **options), code=BAD_INPUT,
                      says=[CHECKPOINT, "delete", *says])
         self.assertEqual(self.files(), sorted([*self.scene, CHECKPOINT]))
 
@@ -158,19 +166,19 @@ class Refusal(Bakes):
                                  ("--directions", "513", "2049"), ("--direct-samples", "8", "4"),
                                  ("--radiance-directions", "2049", "0"), ("--tile", "8", "16"),
                                  ("--radiance-cells", "128", "64"), ("--seed", "0", "5")]:
-            self.refused(option, now, says=[f"{option} was {was}, is {now}"])
+            self.refused(**{option[2:]: now}, says=[f"{option} was {was}, is {now}"])
         self.assertEqual((self.folder / CHECKPOINT).read_bytes(), self.kept)
 
     def test_another_instruction_set_is_named(self):
-        done = vlf(*self.BAKE, "--resume", "--isa", "none", folder=self.folder)
+        done = vlf(*self.command("--isa", "none"), folder=self.folder)
         sets = done.stderr.split("choose one of ")[1].strip().split(", ")
         if len(sets) < 2:
             self.skipTest("this machine has one instruction set")
         self.refused("--isa", sets[1], says=[f"--isa was {sets[0]}, is {sets[1]}"])
 
     def test_another_scene_is_named(self):
-        with (self.folder / "mirror-room.mtl").open("a") as materials:
-            materials.write("newmtl another\nKd 1 1 1\n")
+        materials = self.folder / "mirror-room.mtl"
+        materials.write_text(materials.read_text().replace("Kd 0.74", "Kd 0.75"))
         self.refused(says=["the scene's fingerprint"])
 
     def test_a_damaged_checkpoint_is_refused(self):
@@ -179,12 +187,12 @@ class Refusal(Bakes):
         size = len(self.kept)
         for length in (0, 1, 47, 48, size // 2, size - 1):
             checkpoint.write_bytes(self.kept[:length])
-            self.refused(says=[])
+            self.refused()
         for _ in range(20):
             damaged = bytearray(self.kept)
             damaged[spots.randrange(size)] ^= 1 << spots.randrange(8)
             checkpoint.write_bytes(damaged)
-            self.refused(says=[])
+            self.refused()
 
     def test_a_checkpoint_is_no_field(self):
         for command in (["info"], ["render", "-o", "a.png"]):
@@ -195,7 +203,7 @@ class TwoBakes(Bakes):
     def test_the_second_of_two_bakes_of_one_file_is_refused(self):
         first = self.start()
         self.wait_for(first, "direct light")
-        self.run_vlf(*self.BAKE, code=FAILED, says=["room.vlf", f"process {first.pid}", "wait"])
+        self.run_vlf(*self.command(), code=FAILED, says=["room.vlf", f"process {first.pid}", "wait"])
         first.communicate(timeout=LONGEST)
         self.assertEqual(first.returncode, 0)
         self.take()
@@ -208,29 +216,30 @@ class TwoBakes(Bakes):
         self.assertEqual(first.returncode, 0)
 
     def test_what_a_killed_bake_leaves_does_not_block_and_goes_away(self):
-        process = self.start("--checkpoint", "0")
+        process = self.start(checkpoint="0")
         self.wait_for(process, "bounces")
         process.kill()
         process.communicate()
         for left in ("room.vlf.tmp-123-0", "room.vlf.checkpoint.tmp-123-7"):
             (self.folder / left).write_text("half a file")
         self.assertIn("room.vlf.lock", self.files())
-        self.run_vlf(*self.BAKE)
+        self.run_vlf(*self.command())
         self.take()
 
 
 class NoRoom(Bakes):
-    def limited(self, size, *options):
+    def limited(self, size, *flags, **options):
         """The end of a bake that may write no file larger than `size`."""
         def limit():
             resource.setrlimit(resource.RLIMIT_FSIZE, (size, size))
 
-        return subprocess.run([PROGRAM, *self.BAKE, *options], cwd=self.folder, text=True,
-                              capture_output=True, preexec_fn=limit, timeout=120)
+        return subprocess.run([PROGRAM, *self.command(*flags, **options)], cwd=self.folder,
+                              text=True, capture_output=True, preexec_fn=limit, timeout=120)
 
     def test_a_checkpoint_that_cannot_be_written_does_not_end_the_bake(self):
-        whole = self.whole()
-        done = self.limited(len(whole), "--checkpoint", "0.02")
+        self.run_vlf(*self.command(radiance_directions="0"))
+        whole = self.take()
+        done = self.limited(len(whole), radiance_directions="0", checkpoint="0.02")
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(done.stderr.count("no checkpoint"), 1, done.stderr)
         self.assertIn("File too large", done.stderr)
@@ -240,13 +249,13 @@ class NoRoom(Bakes):
         whole = self.whole()
         (self.folder / "room.vlf").write_text("old")
         self.interrupted_in("radiance field")
-        done = self.limited(len(whole) // 2, "--resume", "--checkpoint", "0")
+        done = self.limited(len(whole) // 2, "--resume", checkpoint="0")
         self.assertEqual(done.returncode, FAILED, done.stderr)
         for text in ("room.vlf: cannot write: File too large", CHECKPOINT, "--resume"):
             self.assertIn(text, done.stderr)
         self.assertEqual((self.folder / "room.vlf").read_text(), "old")
         self.assertEqual(self.files(), sorted([*self.scene, CHECKPOINT, "room.vlf"]))
-        self.run_vlf(*self.BAKE, "--resume")
+        self.run_vlf(*self.command("--resume"))
         self.assertEqual(self.take(), whole)
 
     def on_disk(self, size, *mount_options):
@@ -260,9 +269,8 @@ class NoRoom(Bakes):
         self.addCleanup(subprocess.run, ["umount", disk])
         return disk
 
-    def bake_to(self, output, *options):
-        return vlf(*[o if o != "room.vlf" else output for o in self.BAKE], *options,
-                   folder=self.folder)
+    def bake_to(self, output, **options):
+        return vlf(*self.command(output=output, **options), folder=self.folder)
 
     def test_a_full_disk_is_noticed_before_the_bake(self):
         disk = self.on_disk("64k")
@@ -281,7 +289,7 @@ class NoRoom(Bakes):
     def test_a_disk_that_becomes_full_leaves_the_old_file(self):
         disk = self.on_disk("256k")
         (disk / "room.vlf").write_text("old")
-        done = self.bake_to("disk/room.vlf", "--checkpoint", "0.02")
+        done = self.bake_to("disk/room.vlf", checkpoint="0.02")
         self.assertEqual(done.returncode, FAILED, done.stderr)
         self.assertIn("No space left on device", done.stderr)
         self.assertEqual((disk / "room.vlf").read_text(), "old")
@@ -305,7 +313,7 @@ class NoRoom(Bakes):
 class Usage(Bakes):
     def test_an_interval_is_a_number_of_seconds(self):
         for seconds in ("-1", "often", "nan"):
-            self.run_vlf(*self.BAKE, "--checkpoint", seconds, code=USAGE, says=["--checkpoint"])
+            self.run_vlf(*self.command(checkpoint=seconds), code=USAGE, says=["--checkpoint"])
         self.assertEqual(self.files(), self.scene)
 
 
