@@ -38,7 +38,7 @@ RoomRenderer::RoomRenderer(const RenderOptions& options, const BakedRoom& room,
 void RoomRenderer::moveTo(double seconds) {
     if (!objects_) return;
     vlf::moveTo(*objects_, scenario_, seconds);
-    if (objects_->update() && renderer_) renderer_->updateObjects(*objects_);
+    objects_->update();
 }
 
 Image RoomRenderer::render(const StillParams& params, Progress& progress, StillReport& report) {

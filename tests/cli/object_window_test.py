@@ -146,6 +146,7 @@ class Objects(WindowCase):
         self.press("v", "comparison ended")
         self.assertEqual(before, self.picture())
         self.press("v", "comparing")
+        self.hear("baked again")
         self.press("o", "keys move cube")
         self.screen.do("keydown", "w")
         while "the room has changed" not in self.said.get(timeout=30):
