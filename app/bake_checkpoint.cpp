@@ -32,7 +32,7 @@ CheckpointIdentity identityOf(const BakeParams& params, const std::string& scene
     // Names all members: one that is added has to be thought of here.
     const auto& [preset, directions, cells, texelSize, texelBudget, directSamples, coarseDirections,
                  coarseCells, maxBounces, tolerance, settlingSweeps, radianceDirections,
-                 radianceCells, tileSize, seed] = params;
+                 radianceCells, glossDirections, glossCells, gloss, tileSize, seed] = params;
     const auto text = [](const auto& value) { return fmt::format("{}", value); };
     return {{"the program's version", VLF_VERSION},
             {"the scene's fingerprint", sceneHash},
@@ -50,6 +50,9 @@ CheckpointIdentity identityOf(const BakeParams& params, const std::string& scene
             {"settling sweeps", text(settlingSweeps)},
             {"--radiance-directions", text(radianceDirections)},
             {"--radiance-cells", text(radianceCells)},
+            {"--gloss-directions", text(glossDirections)},
+            {"--gloss-cells", text(glossCells)},
+            {"--gloss-samples", fmt::format("{} and {}", gloss.reflections, gloss.emitters)},
             {"--tile", text(tileSize)},
             {"--seed", text(seed)}};
 }
@@ -65,7 +68,7 @@ std::string placeOf(const BakeSolution& solution) {
         case BakeStage::settled:
             return "in the last sweep";
         case BakeStage::solved:
-            return "the radiance field";
+            return "the radiance fields";
     }
     return {};
 }

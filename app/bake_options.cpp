@@ -1,5 +1,7 @@
 #include "bake_options.h"
 
+#include <algorithm>
+
 namespace vlf::app {
 
 namespace {
@@ -36,7 +38,15 @@ CLI::Option_group* addQualityOptions(CLI::App& command, QualityOptions& o) {
         ->check(CLI::IsMember({0, 129, 513, 2049, 8193}));
     group->add_option("--radiance-cells", o.radianceCells, "Its cells along one side")
         ->check(CLI::Range(16, 4096));
-    group->add_option("--tile", o.tile, "Its tiles, cells along one side")
+    group
+        ->add_option("--gloss-directions", o.glossDirections,
+                     "Lines of the radiance field of rough mirrors (0: none)")
+        ->check(CLI::IsMember({0, 129, 513, 2049, 8193}));
+    group->add_option("--gloss-cells", o.glossCells, "Its cells along one side")
+        ->check(CLI::Range(16, 4096));
+    group->add_option("--gloss-samples", o.glossSamples, "Rays per cell of it")
+        ->check(CLI::Range(1, 4096));
+    group->add_option("--tile", o.tile, "Tiles of both, cells along one side")
         ->check(CLI::IsMember({4, 8, 16, 32, 64}));
     return group;
 }
@@ -54,6 +64,9 @@ BakeParams withSettings(const QualityOptions& o, BakeParams p) {
     if (o.samples > 0) p.directSamples = o.samples;
     if (o.radianceDirections >= 0) p.radianceDirections = o.radianceDirections;
     if (o.radianceCells > 0) p.radianceCells = o.radianceCells;
+    if (o.glossDirections >= 0) p.glossDirections = o.glossDirections;
+    if (o.glossCells > 0) p.glossCells = o.glossCells;
+    if (o.glossSamples > 0) p.gloss = {o.glossSamples, std::max(1, o.glossSamples / 4)};
     if (o.texel > 0) p.texelSize = o.texel;
     if (o.bounces != "auto") p.maxBounces = std::stoi(o.bounces);
     return p;

@@ -16,6 +16,7 @@ struct QualityOptions {
     std::string preset = "standard", bounces = "auto";
     int directions = 0, cells = 0, tile = 0, samples = 0;
     int radianceDirections = -1, radianceCells = 0;
+    int glossDirections = -1, glossCells = 0, glossSamples = 0;
     float texel = 0;
 };
 

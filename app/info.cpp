@@ -7,6 +7,7 @@
 #include "vlf/render/gl/gpu_memory.h"
 
 #include <algorithm>
+#include <array>
 #include <memory>
 #include <optional>
 #include <string>
@@ -41,8 +42,15 @@ double bytesPerTexel(const FieldFileInfo& info) {
     return bytesPer(info, "irradiance", info.counts.texels());
 }
 
-double bytesPerElement(const FieldFileInfo& info) {
-    return bytesPer(info, "radiance", info.counts.filledElements);
+/// A radiance field of the file.
+struct StoredRadiance {
+    const char *title, *chunk;
+    const RadianceCounts& counts;
+};
+
+std::array<StoredRadiance, 2> radianceFields(const FieldFileInfo& info) {
+    return {{{"radiance field", "radiance", info.counts.radiance},
+             {"gloss", "gloss", info.counts.gloss}}};
 }
 
 ChunkInfo totalOf(const FieldFileInfo& info) {
@@ -53,6 +61,18 @@ ChunkInfo totalOf(const FieldFileInfo& info) {
         total.blocks += c.blocks;
     }
     return total;
+}
+
+Json toJson(const StoredRadiance& r, const FieldFileInfo& info) {
+    const RadianceCounts& c = r.counts;
+    return {{"lines", c.lines},
+            {"cells", c.cells},
+            {"tileSize", c.tileSize},
+            {"maxDistance", c.maxDistance},
+            {"tileRows", c.tileRows},
+            {"elements", c.elements},
+            {"filledElements", c.filled},
+            {"bytesPerElement", bytesPer(info, r.chunk, c.filled)}};
 }
 
 Json toJson(const FieldCounts& c) {
@@ -66,14 +86,7 @@ Json toJson(const FieldCounts& c) {
             {"charts", c.charts},
             {"texels", c.texels()},
             {"atlasWidth", c.atlasWidth},
-            {"atlasHeight", c.atlasHeight},
-            {"radianceLines", c.radianceLines},
-            {"radianceCells", c.radianceCells},
-            {"tileSize", c.tileSize},
-            {"maxDistance", c.maxDistance},
-            {"tileRows", c.tileRows},
-            {"radianceElements", c.radianceElements},
-            {"filledElements", c.filledElements}};
+            {"atlasHeight", c.atlasHeight}};
 }
 
 Json toJson(const BakeRecord& r) {
@@ -86,6 +99,8 @@ Json toJson(const BakeRecord& r) {
             {"cells", r.cells},
             {"radianceDirections", r.radianceDirections},
             {"radianceCells", r.radianceCells},
+            {"glossDirections", r.glossDirections},
+            {"glossCells", r.glossCells},
             {"tileSize", r.tileSize},
             {"texelSize", r.texelSize},
             {"directSamples", r.directSamples},
@@ -133,7 +148,8 @@ Json toJson(const Options& options, const FieldFileInfo& info) {
             {"fileBytes", info.fileBytes},
             {"memoryBytes", totalOf(info).memoryBytes},
             {"bytesPerTexel", bytesPerTexel(info)},
-            {"bytesPerElement", bytesPerElement(info)},
+            {"radianceField", toJson(radianceFields(info)[0], info)},
+            {"gloss", toJson(radianceFields(info)[1], info)},
             {"counts", toJson(info.counts)},
             {"frame", {{"centre", toJson(info.frame.centre)}, {"radius", info.frame.radius}}},
             {"bake", toJson(info.record)},
@@ -181,16 +197,19 @@ void printLight(const FieldFileInfo& info) {
     printLine("charts", c.charts);
     printLine("texels", fmt::format("{} x {}, {:.2f} bytes each on disk", c.atlasWidth,
                                     c.atlasHeight, bytesPerTexel(info)));
-    if (c.radianceLines == 0) {
-        printLine("radiance field", "none");
-        return;
+    for (const auto& [title, chunk, radiance] : radianceFields(info)) {
+        if (radiance.lines == 0) {
+            printLine(title, "none");
+            continue;
+        }
+        printLine(title, fmt::format("{} lines x {} x {} cells, tiles of {} x {}", radiance.lines,
+                                     radiance.cells, radiance.cells, radiance.tileSize,
+                                     radiance.tileSize));
+        printLine("elements", fmt::format("{} filled of {}, {:.2f} bytes each on disk",
+                                          radiance.filled, radiance.elements,
+                                          bytesPer(info, chunk, radiance.filled)));
+        printLine("longest distance", fmt::format("{:.4g} m", radiance.maxDistance));
     }
-    printLine("radiance field",
-              fmt::format("{} lines x {} x {} cells, tiles of {} x {}", c.radianceLines,
-                          c.radianceCells, c.radianceCells, c.tileSize, c.tileSize));
-    printLine("elements", fmt::format("{} filled of {}, {:.2f} bytes each on disk",
-                                      c.filledElements, c.radianceElements, bytesPerElement(info)));
-    printLine("longest distance", fmt::format("{:.4g} m", c.maxDistance));
 }
 
 void printBake(const BakeRecord& r) {
@@ -204,6 +223,8 @@ void printBake(const BakeRecord& r) {
     printLine("cells", r.cells);
     printLine("radiance directions", r.radianceDirections);
     printLine("radiance cells", r.radianceCells);
+    printLine("gloss directions", r.glossDirections);
+    printLine("gloss cells", r.glossCells);
     printLine("tile size", r.tileSize);
     printLine("texel size", fmt::format("{:.4g} m", r.texelSize));
     printLine("direct samples", r.directSamples);

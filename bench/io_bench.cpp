@@ -40,8 +40,8 @@ void reportSizes(benchmark::State& state, const vlf::FieldFileInfo& info) {
         const auto stored = static_cast<double>(chunk.storedBytes);
         if (chunk.name == "irradiance")
             state.counters["B/texel"] = stored / static_cast<double>(info.counts.texels());
-        if (chunk.name == "radiance" && info.counts.filledElements > 0)
-            state.counters["B/element"] = stored / static_cast<double>(info.counts.filledElements);
+        if (chunk.name == "radiance" && info.counts.radiance.filled > 0)
+            state.counters["B/element"] = stored / static_cast<double>(info.counts.radiance.filled);
         if (chunk.name == "pixels.srgb8" && chunk.memoryBytes > 0)
             state.counters["B/pixel"] = 4 * stored / static_cast<double>(chunk.memoryBytes);
     }

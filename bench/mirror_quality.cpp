@@ -113,7 +113,7 @@ class MirrorQuality {
 
     /// CPU time per mirror pixel of the three ways, without that of finding the mirror.
     Json times(const MirrorPixels& pixels) const {
-        const MirrorLookup lookup(room_.field);
+        const MirrorLookup lookup(room_.field.frame, room_.field.radiance);
         const FieldShader shader(room_.scene, rays_, room_.field);
         const auto lookUp = [&](LookupKind kind) {
             return nanoseconds(pixels, [&](std::size_t first, std::span<Vec3> seen) {

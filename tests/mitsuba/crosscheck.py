@@ -33,7 +33,7 @@ from agreement import judge
 
 VIEWS = [("cornell", "front"), ("cornell", "corner"), ("mirror-room", "front"),
          ("mirror-room", "mirror"), ("two-rooms", "overview"), ("two-rooms", "door"),
-         ("grotto", None)]
+         ("grotto", None), ("gloss", "front"), ("gloss", "floor")]
 REGIONS = (4, 3)  # columns, rows
 BATCHES = 32  # independent Mitsuba renderings, whose spread is their error
 

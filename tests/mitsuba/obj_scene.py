@@ -1,7 +1,8 @@
 """Reads what `vlf scene` writes (OBJ, MTL, cameras) and makes a Mitsuba 3 scene of it.
 
-Materials reflect Kd diffusely and, with illum 3, Ks as a mirror, on both sides; Ke is radiance that
-leaves the side of the winding normal. Maps multiply their colour.
+Materials reflect Kd diffusely and Ks as a mirror, on both sides: with illum 3 a perfect one, with
+illum 2 and Pr one of that perceptual roughness. Ke is radiance that leaves the side of the winding
+normal. Maps multiply their colour.
 """
 
 import json
@@ -23,6 +24,7 @@ class Material:
     colours: dict = field(default_factory=dict)  # "Kd" -> [r, g, b]
     maps: dict = field(default_factory=dict)  # "Kd" -> Texture
     illum: int = 1
+    roughness: float = 0.0  # Pr
 
     def colour(self, key):
         return np.array(self.colours.get(key, [0.0, 0.0, 0.0]))
@@ -37,6 +39,8 @@ def read_materials(path):
                 current = materials.setdefault(words[1], Material())
             elif words[0] == "illum":
                 current.illum = int(words[1])
+            elif words[0] == "Pr":
+                current.roughness = float(words[1])
             elif words[0] in ("Kd", "Ks", "Ke"):
                 current.colours[words[0]] = [float(w) for w in words[1:4]]
             elif words[0].startswith("map_"):
@@ -67,8 +71,8 @@ def read_mesh(path):
     return vertices, {m: np.array(f) for m, f in faces.items()}, library
 
 
-def textured(material, key):
-    colour, texture = material.colour(key), material.maps.get(key)
+def textured(material, key, factor=1.0):
+    colour, texture = factor * material.colour(key), material.maps.get(key)
     if texture is None:
         return {"type": "rgb", "value": colour.tolist()}
     bitmap = mi.Bitmap(texture.path).convert(mi.Bitmap.PixelFormat.RGB, mi.Struct.Type.Float32, False)
@@ -128,7 +132,19 @@ def define_diffuse_mirror():
     mi.register_bsdf("diffusemirror", DiffuseMirror)
 
 
+def rough(material):
+    """Facets of a constant reflectance, as a half of the blend with twice the diffuse part."""
+    return {"type": "twosided", "bsdf": {
+        "type": "blendbsdf", "weight": 0.5,
+        "diffuse": {"type": "diffuse", "reflectance": textured(material, "Kd", 2)},
+        "mirror": {"type": "roughconductor", "material": "none", "distribution": "ggx",
+                   "alpha": material.roughness ** 2,
+                   "specular_reflectance": textured(material, "Ks", 2)}}}
+
+
 def bsdf(material):
+    if material.illum == 2 and material.roughness > 0:
+        return rough(material)
     kd = material.colour("Kd").max()
     ks = material.colour("Ks").max() if material.illum in (3, 5) else 0.0
     if ks == 0:

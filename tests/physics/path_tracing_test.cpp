@@ -99,6 +99,11 @@ TEST(PathTracing, AgreesInTheMirrorRoom) {
     expectAgreement("mirror-room", errorAgainstPathTracing(s, anywhere), 0.04, 0.003);
 }
 
+TEST(PathTracing, AgreesBesideRoughMirrors) {
+    const SolvedScene s(generateScene("gloss"), standardTransport(25000));
+    expectAgreement("gloss", errorAgainstPathTracing(s, anywhere), 0.03, 0.004);
+}
+
 TEST(PathTracing, AgreesByTheCaustics) {
     const SolvedScene s(generateScene("caustic"), standardTransport(25000));
     const IrradianceError e = errorAgainstPathTracing(s, anywhere);

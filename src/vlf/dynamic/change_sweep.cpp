@@ -59,7 +59,7 @@ void ChangeSweep::sweep(const LitRoom& room, int lines, int number) {
                                                            kCells, roll, random.next2());
             sights.clear();
             sweepBundle(faces_, subfield, radiance_, parts_[a], sights, scratch);
-            mirrors.gatherFromMirrors(subfield, sights, radiance_, parts_[a]);
+            mirrors.gatherFromMirrors(subfield, sights, random, radiance_, parts_[a]);
         }
     });
 }

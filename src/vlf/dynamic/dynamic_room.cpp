@@ -62,7 +62,7 @@ RoomMirrors mirrorsOf(const Scene& scene, const LightField& field, const RoomTex
     RoomMirrors mirrors;
     for (std::size_t c = 0; c < field.charts.size(); ++c) {
         const Chart& chart = field.charts[c];
-        if (!scene.materials[chart.material].isMirror()) continue;
+        if (!scene.materials[chart.material].isMirror(MirrorKind::perfect)) continue;
         mirrors.planes.push_back({chart.normal, texels.sources.mirrorOffset[c]});
         mirrors.simple = mirrors.simple && texels.sources.planarMirror[c] &&
                          mirrors.planes.size() <= kMaxMirrors &&

@@ -39,6 +39,7 @@ bool isClosed(const Scene& scene) {
 ObjectMesh::ObjectMesh(Scene mesh) : scene(std::move(mesh)), rays(scene), closed(isClosed(scene)) {}
 
 ObjectModel::ObjectModel(Scene scene) {
+    makeGlossDiffuse(scene);
     if (scene.triangles.empty()) throw InputError("an object needs at least one triangle");
     bounds_ = boundingSphere(scene);
     emits_ = hasEmitter(scene);

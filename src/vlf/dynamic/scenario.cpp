@@ -27,6 +27,8 @@ Scene sceneOf(const ObjectSource& source, std::vector<std::string>& warnings) {
     ImportReport report;
     Scene scene = importScene({source.file}, report);
     warnings.insert(warnings.end(), report.warnings.begin(), report.warnings.end());
+    if (makeGlossDiffuse(scene))
+        warnings.push_back(source.file + ": glossy reflection of objects is treated as diffuse");
     return scene;
 }
 

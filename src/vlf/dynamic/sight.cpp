@@ -1,14 +1,24 @@
 #include "vlf/dynamic/sight.h"
 
+#include "vlf/math/microfacet.h"
 #include "vlf/propagate/ray_gather.h"
 
 #include <algorithm>
+#include <bit>
 #include <utility>
 
 namespace vlf {
 
 namespace {
 constexpr float kMinThroughput = 1e-4f;
+
+/// The same for the same ray, so that light does not flicker.
+Vec2 drawFor(const Ray& ray) {
+    const auto bits = [](float x) { return std::uint64_t{std::bit_cast<std::uint32_t>(x)}; };
+    RandomStream random(bits(ray.direction.x) << 32 | bits(ray.direction.y),
+                        bits(ray.origin.x) << 32 | bits(ray.origin.z));
+    return random.next2();
+}
 }
 
 void SightTracer::trace(std::span<const Ray> rays, Sights& sights) {
@@ -93,7 +103,7 @@ void SightTracer::meetRoom(const Path& path, const Ray& ray, const Hit& hit) {
     reflect(path, ray, hit.t,
             {position, normal, side,
              mirrorReflectance(scene_, material, uvAt(scene_, hit.triangle, hit.barycentric)),
-             rays_.epsilon(), planar});
+             material.roughness, rays_.epsilon(), planar && !material.isGlossy()});
 }
 
 void SightTracer::meetObject(const Path& path, const Ray& ray, const InstanceHit& found) {
@@ -123,7 +133,7 @@ void SightTracer::meetObject(const Path& path, const Ray& ray, const InstanceHit
             {ray.origin + hit.t * ray.direction,
              object.pose.direction(shadingNormalAt(scene, hit.triangle, hit.barycentric)),
              sight.front ? winding : -winding, mirrorReflectance(scene, material, uv),
-             std::max(rays_.epsilon(), scale * object.mesh->rays.epsilon()), false});
+             material.roughness, std::max(rays_.epsilon(), scale * object.mesh->rays.epsilon()), false});
 }
 
 void SightTracer::reflect(Path path, const Ray& ray, float t, const MirrorPoint& mirror) {
@@ -133,7 +143,14 @@ void SightTracer::reflect(Path path, const Ray& ray, float t, const MirrorPoint&
     if (++path.reflections > kMaxReflections || maxComponent(path.throughput) < kMinThroughput)
         return;
     const Vec3 normal = glm::dot(mirror.normal, mirror.side) < 0 ? -mirror.normal : mirror.normal;
-    const Vec3 reflected = glm::reflect(ray.direction, normal);
+    Vec3 reflected = glm::reflect(ray.direction, normal);
+    if (mirror.roughness > 0) {
+        const Vec3& facing = glm::dot(normal, ray.direction) < 0 ? normal : mirror.side;
+        const GlossyReflection glossy =
+            sampleGgxReflection(mirror.roughness, ray.direction, facing, drawFor(ray));
+        path.throughput *= glossy.weight;
+        reflected = glossy.direction;
+    }
     if (glm::dot(reflected, mirror.side) <= 0) return;
     nextQueue_.push_back({mirror.position + mirror.epsilon * mirror.side, reflected});
     nextPaths_.push_back(path);

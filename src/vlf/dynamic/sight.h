@@ -71,7 +71,7 @@ class SightTracer {
     /// Where a path meets a mirror.
     struct MirrorPoint {
         Vec3 position, normal, side, reflectance;
-        float epsilon;
+        float roughness, epsilon;
         bool planar;
     };
 

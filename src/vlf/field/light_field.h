@@ -1,7 +1,8 @@
 #pragma once
 // The virtual light field: everything the light transport found, as plain data. Two
 // representations exist: the irradiance atlas (diffuse light; read by every renderer) and the
-// radiance field (mirror charts; read in `field` mode).
+// radiance field (mirror charts; read in `field` mode), of which there are two: what perfect mirrors
+// show is sharp, what rough ones show is not and needs fewer directions and cells.
 
 #include "vlf/field/chart.h"
 #include "vlf/field/irradiance_atlas.h"
@@ -33,6 +34,8 @@ struct BakeRecord {
     int cells = 0;               ///< N
     int radianceDirections = 0;  ///< lines of the radiance field; 0: no mirrors
     int radianceCells = 0;
+    int glossDirections = 0;  ///< the same of rough mirrors
+    int glossCells = 0;
     int tileSize = 0;       ///< m
     float texelSize = 0;    ///< metres
     int directSamples = 0;  ///< per texel
@@ -46,7 +49,8 @@ struct LightField {
     std::vector<Chart> charts;
     std::vector<TriangleCharts> triangleCharts;  ///< one per display triangle
     IrradianceAtlas atlas;
-    RadianceField radiance;
+    RadianceField radiance;  ///< of perfect mirrors
+    RadianceField gloss;     ///< of rough ones
     BakeRecord record;
 };
 

@@ -16,10 +16,11 @@ namespace vlf {
 
 namespace {
 
-constexpr std::array<std::string_view, 18> kChunks = {
+constexpr std::array<std::string_view, 21> kChunks = {
     "summary",       "meshes",          "materials",  "cameras",   "textures",  "pixels.srgb8",
     "pixels.linear", "positions",       "normals",    "uvs",       "triangles", "bake",
-    "charts",        "triangle charts", "irradiance", "subfields", "tile rows", "radiance"};
+    "charts",        "triangle charts", "irradiance", "subfields", "tile rows", "radiance",
+    "gloss subfields", "gloss tile rows", "gloss"};
 
 /// The chunk "summary": the sizes of all arrays, and where the field lies.
 struct Summary {
@@ -38,12 +39,21 @@ std::uint64_t texturePixels(const Scene& scene) {
     return sum;
 }
 
+RadianceCounts countsOf(const RadianceField& radiance) {
+    const auto filled = std::count_if(radiance.elements.begin(), radiance.elements.end(),
+                                      [](const RadianceElement& e) { return e.distance > 0; });
+    return {.lines = radiance.lines,
+            .cells = radiance.cells,
+            .tileSize = radiance.tileSize,
+            .maxDistance = radiance.maxDistance,
+            .tileRows = radiance.rows.size(),
+            .elements = radiance.elements.size(),
+            .filled = static_cast<std::uint64_t>(filled)};
+}
+
 FieldCounts countsOf(const BakedRoom& room) {
     const Scene& scene = room.scene;
     const LightField& field = room.field;
-    const RadianceField& radiance = field.radiance;
-    const auto filled = std::count_if(radiance.elements.begin(), radiance.elements.end(),
-                                      [](const RadianceElement& e) { return e.distance > 0; });
     return {.vertices = scene.positions.size(),
             .triangles = scene.triangles.size(),
             .meshes = scene.meshes.size(),
@@ -54,13 +64,8 @@ FieldCounts countsOf(const BakedRoom& room) {
             .charts = field.charts.size(),
             .atlasWidth = field.atlas.width,
             .atlasHeight = field.atlas.height,
-            .radianceLines = radiance.lines,
-            .radianceCells = radiance.cells,
-            .tileSize = radiance.tileSize,
-            .maxDistance = radiance.maxDistance,
-            .tileRows = radiance.rows.size(),
-            .radianceElements = radiance.elements.size(),
-            .filledElements = static_cast<std::uint64_t>(filled)};
+            .radiance = countsOf(field.radiance),
+            .gloss = countsOf(field.gloss)};
 }
 
 void checkRoom(const BakedRoom& room, const std::string& path) {
@@ -83,8 +88,9 @@ Summary readSummary(const ChunkFileReader& file) {
     readRecord(file, "summary", summary);
     const FieldCounts& c = summary.counts;
     constexpr std::uint64_t kMaxCount = 0xffffffff;  // of what 32-bit indices can reach
-    const bool countable = std::max({c.vertices, c.triangles, c.charts, c.tileRows}) < kMaxCount;
-    if (!countable || c.radianceLines < 0 || !isFinite(summary.frame.centre) ||
+    const bool countable = std::max({c.vertices, c.triangles, c.charts, c.radiance.tileRows,
+                                     c.gloss.tileRows}) < kMaxCount;
+    if (!countable || c.radiance.lines < 0 || c.gloss.lines < 0 || !isFinite(summary.frame.centre) ||
         !std::isfinite(summary.frame.radius))
         throw InputError({file.path(), 0, "chunk summary"}, "impossible numbers: bake it again");
     return summary;
@@ -94,8 +100,10 @@ Summary readSummary(const ChunkFileReader& file) {
 
 void writeField(const std::string& path, const BakedRoom& room) {
     checkRoom(room, path);
-    checkRadianceLayout(room.field.radiance, room.field.charts.size(), path);
-    checkRadianceElements(room.field.radiance, path);
+    for (const RadianceField* radiance : {&room.field.radiance, &room.field.gloss}) {
+        checkRadianceLayout(*radiance, room.field.charts.size(), path);
+        checkRadianceElements(*radiance, path);
+    }
     ChunkFileWriter file;
     addRecord(file, "summary", Summary{countsOf(room), room.field.frame});
     addScene(file, room.scene);

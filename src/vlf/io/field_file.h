@@ -31,15 +31,20 @@ void writeField(const std::string& path, const BakedRoom& room);
 BakedRoom readField(const std::string& path);
 
 /// How much a field file holds.
+/// Sizes of a radiance field; no lines: it is empty.
+struct RadianceCounts {
+    int lines = 0, cells = 0, tileSize = 0;
+    float maxDistance = 0;  ///< metres
+    std::uint64_t tileRows = 0;
+    std::uint64_t elements = 0;
+    std::uint64_t filled = 0;  ///< elements with a distance above 0
+};
+
 struct FieldCounts {
     std::uint64_t vertices = 0, triangles = 0, meshes = 0, materials = 0, textures = 0;
     std::uint64_t texturePixels = 0, cameras = 0, charts = 0;
     std::uint32_t atlasWidth = 0, atlasHeight = 0;  ///< texels
-    int radianceLines = 0, radianceCells = 0, tileSize = 0;
-    float maxDistance = 0;  ///< metres
-    std::uint64_t tileRows = 0;
-    std::uint64_t radianceElements = 0;
-    std::uint64_t filledElements = 0;  ///< with a distance above 0
+    RadianceCounts radiance, gloss;
 
     std::uint64_t texels() const { return std::uint64_t{atlasWidth} * atlasHeight; }
 };

@@ -69,11 +69,18 @@ TileRow decodeTileRow(const TileRowCodec::Element& words) {
     return row;
 }
 
-void addRadiance(ChunkFileWriter& file, const RadianceField& radiance) {
-    addArray(file, "subfields", radiance.firstRow);
-    addGrid<TileRowCodec>(file, "tile rows", radiance.rows, 1, encodeTileRow);
+/// The chunks of a radiance field.
+struct RadianceNames {
+    const char *subfields, *rows, *elements;
+};
+constexpr RadianceNames kRadiance{"subfields", "tile rows", "radiance"};
+constexpr RadianceNames kGloss{"gloss subfields", "gloss tile rows", "gloss"};
+
+void addRadiance(ChunkFileWriter& file, const RadianceNames& names, const RadianceField& radiance) {
+    addArray(file, names.subfields, radiance.firstRow);
+    addGrid<TileRowCodec>(file, names.rows, radiance.rows, 1, encodeTileRow);
     const TileGroups groups(radiance);
-    file.add("radiance", groups.count(), [&](std::size_t g) {
+    file.add(names.elements, groups.count(), [&](std::size_t g) {
         return Block{groups.encode(g), groups.groupElements(g) * sizeof(RadianceElement)};
     });
 }
@@ -86,10 +93,10 @@ void setFirstElements(RadianceField& radiance) {
     }
 }
 
-void readElements(const ChunkFileReader& file, RadianceField& radiance) {
+void readElements(const ChunkFileReader& file, const char* name, RadianceField& radiance) {
     const TileGroups groups(radiance);
     const Chunk& chunk =
-        file.chunk("radiance", groups.count(), groups.elementCount() * sizeof(RadianceElement));
+        file.chunk(name, groups.count(), groups.elementCount() * sizeof(RadianceElement));
     radiance.elements.resize(groups.elementCount());
     file.read(chunk, [&](std::size_t g, std::span<const std::uint8_t> bytes) {
         if (!groups.decode(g, bytes, radiance.elements))
@@ -97,18 +104,19 @@ void readElements(const ChunkFileReader& file, RadianceField& radiance) {
     });
 }
 
-RadianceField readRadiance(const ChunkFileReader& file, const FieldCounts& counts) {
+RadianceField readRadiance(const ChunkFileReader& file, const RadianceNames& names,
+                           const RadianceCounts& counts, std::uint64_t charts) {
     RadianceField radiance;
-    radiance.lines = counts.radianceLines;
-    radiance.cells = counts.radianceCells;
+    radiance.lines = counts.lines;
+    radiance.cells = counts.cells;
     radiance.tileSize = counts.tileSize;
     radiance.maxDistance = counts.maxDistance;
     const std::uint64_t directions = 2 * static_cast<std::uint64_t>(radiance.lines);
-    readArray(file, "subfields", radiance.firstRow, radiance.empty() ? 0 : directions + 1);
-    readGrid<TileRowCodec>(file, "tile rows", radiance.rows, {1, counts.tileRows}, decodeTileRow);
-    checkRadianceLayout(radiance, counts.charts, file.path());
+    readArray(file, names.subfields, radiance.firstRow, radiance.empty() ? 0 : directions + 1);
+    readGrid<TileRowCodec>(file, names.rows, radiance.rows, {1, counts.tileRows}, decodeTileRow);
+    checkRadianceLayout(radiance, charts, file.path());
     setFirstElements(radiance);
-    readElements(file, radiance);
+    readElements(file, names.elements, radiance);
     return radiance;
 }
 
@@ -120,7 +128,8 @@ void addLightField(ChunkFileWriter& file, const LightField& field) {
     addArray(file, "triangle charts", field.triangleCharts);
     addGrid<IrradianceCodec>(file, "irradiance", field.atlas.irradiance, field.atlas.width,
                              encodeIrradiance);
-    addRadiance(file, field.radiance);
+    addRadiance(file, kRadiance, field.radiance);
+    addRadiance(file, kGloss, field.gloss);
 }
 
 LightField readLightField(const ChunkFileReader& file, const FieldCounts& counts) {
@@ -132,7 +141,8 @@ LightField readLightField(const ChunkFileReader& file, const FieldCounts& counts
     field.atlas.height = counts.atlasHeight;
     readGrid<IrradianceCodec>(file, "irradiance", field.atlas.irradiance,
                               {counts.atlasWidth, counts.atlasHeight}, decodeIrradiance);
-    field.radiance = readRadiance(file, counts);
+    field.radiance = readRadiance(file, kRadiance, counts.radiance, counts.charts);
+    field.gloss = readRadiance(file, kGloss, counts.gloss, counts.charts);
     return field;
 }
 

@@ -22,7 +22,7 @@ void describe(S& s, Field<S, Mesh> m) {
 template <class S>
 void describe(S& s, Field<S, Material> m) {
     s(m.name, m.diffuse, m.mirror, m.emission);
-    s(m.diffuseTexture, m.mirrorTexture, m.emissionTexture, m.emitsBothSides);
+    s(m.roughness, m.diffuseTexture, m.mirrorTexture, m.emissionTexture, m.emitsBothSides);
 }
 
 template <class S>
@@ -33,7 +33,8 @@ void describe(S& s, Field<S, EnergyReport> e) {
 template <class S>
 void describe(S& s, Field<S, BakeRecord> r) {
     s(r.programVersion, r.instructionSet, r.sceneHash, r.preset, r.seed);
-    s(r.directions, r.cells, r.radianceDirections, r.radianceCells, r.tileSize, r.texelSize);
+    s(r.directions, r.cells, r.radianceDirections, r.radianceCells);
+    s(r.glossDirections, r.glossCells, r.tileSize, r.texelSize);
     s(r.directSamples, r.bounces, r.residual, r.energy);
 }
 
@@ -43,10 +44,14 @@ void describe(S& s, Field<S, FieldFrame> f) {
 }
 
 template <class S>
+void describe(S& s, Field<S, RadianceCounts> c) {
+    s(c.lines, c.cells, c.tileSize, c.maxDistance, c.tileRows, c.elements, c.filled);
+}
+
+template <class S>
 void describe(S& s, Field<S, FieldCounts> c) {
     s(c.vertices, c.triangles, c.meshes, c.materials, c.textures, c.texturePixels, c.cameras);
-    s(c.charts, c.atlasWidth, c.atlasHeight, c.radianceLines, c.radianceCells, c.tileSize);
-    s(c.maxDistance, c.tileRows, c.radianceElements, c.filledElements);
+    s(c.charts, c.atlasWidth, c.atlasHeight, c.radiance, c.gloss);
 }
 
 /// Texture without its pixels.

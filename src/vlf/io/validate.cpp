@@ -73,6 +73,7 @@ void checkMaterials(const Scene& scene, const std::string& path) {
         const Material& m = scene.materials[i];
         check(isLight(m.diffuse) && isLight(m.mirror) && isLight(m.emission), i,
               "is not finite or negative");
+        check(m.roughness >= 0 && m.roughness <= 1, i, "has a roughness outside 0 to 1");
         for (const int t : {m.diffuseTexture, m.mirrorTexture, m.emissionTexture})
             check(t >= -1 && t < textures, i, "refers to a texture that does not exist");
     }

@@ -18,6 +18,9 @@ BakeParams previewParams() {
     p.tolerance = 2e-2;
     p.radianceDirections = 129;
     p.radianceCells = 64;
+    p.glossDirections = 129;
+    p.glossCells = 32;
+    p.gloss = {8, 4};
     return p;
 }
 
@@ -33,6 +36,7 @@ std::vector<BakeParams> bakeLadder(const BakeParams& wanted) {
         p.seed = wanted.seed;
         p.maxBounces = wanted.maxBounces;
         p.radianceDirections = std::min(p.radianceDirections, wanted.radianceDirections);
+        p.glossDirections = std::min(p.glossDirections, wanted.glossDirections);
     }
     rungs.push_back(wanted);
     return rungs;

@@ -2,6 +2,7 @@
 
 #include "vlf/base/error.h"
 #include "vlf/base/parallel.h"
+#include "vlf/math/microfacet.h"
 #include "vlf/propagate/fill_atlas.h"
 
 #include <algorithm>
@@ -40,15 +41,20 @@ FieldFrame frameOf(const Scene& scene) {
     return {sphere.centre, sphere.radius};
 }
 
-/// Mean reflectances over each texel's points.
+/// Mean reflectances over each texel's points. What a rough mirror takes of diffuse light counts as
+/// absorbed.
 void findReflectances(BakeState& state) {
     const Unwrap& u = state.unwrap;
+    std::vector<float> mirrorAlbedo;
+    for (const Material& m : state.scene.materials)
+        mirrorAlbedo.push_back(m.isGlossy() ? ggxMeanAlbedo(m.roughness) : 1);
     state.reflectance.resize(u.texels.size());
     state.absorptance.resize(u.texels.size());
     parallelFor(u.texels.size(), 512, [&](std::size_t i) {
         const MeanReflectance mean = meanReflectance(state.scene, u.points.of(i));
         state.reflectance[i] = mean.diffuse;
-        state.absorptance[i] = glm::max(Vec3(0), Vec3(1) - (mean.diffuse + mean.mirror));
+        const float albedo = mirrorAlbedo[u.charts[u.texelChart[i]].material];
+        state.absorptance[i] = glm::max(Vec3(0), Vec3(1) - (mean.diffuse + albedo * mean.mirror));
     });
 }
 
@@ -71,12 +77,6 @@ void checkParams(const BakeParams& p) {
         throw InputError("cells must lie between 16 and 8192, not " + std::to_string(p.cells));
     if (p.texelSize < 0) throw InputError("the texel size must be positive");
     if (p.directSamples < 1) throw InputError("direct light needs at least one sample");
-}
-
-bool hasMirrors(const Scene& scene, const std::vector<Chart>& charts) {
-    return std::any_of(charts.begin(), charts.end(), [&](const Chart& chart) {
-        return scene.materials[chart.material].isMirror();
-    });
 }
 
 /// Everything before light.
@@ -119,18 +119,38 @@ void begin(BakeState& state, Progress& progress, const BakeObserver& observe) {
     observe(state);
 }
 
-void addRadianceField(BakeState& state, LightField& field, Progress& progress,
-                      const BakeObserver& observe) {
-    const BakeParams& p = state.params;
-    if (p.radianceDirections == 0 || !hasMirrors(state.scene, field.charts)) return;
-    const RadianceParams params{p.radianceDirections, p.radianceCells, p.tileSize};
-    timed(state.report, progress, "radiance field", [&] {
-        while (!fillRadiance(state.scene, state.rays, field, params, state.radiance, progress))
+/// Completes one of the radiance fields.
+void fill(BakeState& state, const LightField& field, const char* stage,
+          const RadianceParams& params, PartialRadiance& partial, Progress& progress,
+          const BakeObserver& observe) {
+    const bool any = std::any_of(field.charts.begin(), field.charts.end(), [&](const Chart& chart) {
+        return state.scene.materials[chart.material].isMirror(params.kind);
+    });
+    if (params.lines == 0 || !any) return;
+    timed(state.report, progress, stage, [&] {
+        while (!fillRadiance(state.scene, state.rays, field, params, partial, progress))
             observe(state);
     });
+}
+
+void addRadianceFields(BakeState& state, LightField& field, Progress& progress,
+                       const BakeObserver& observe) {
+    const BakeParams& p = state.params;
+    fill(state, field, "radiance field",
+         {.lines = p.radianceDirections, .cells = p.radianceCells, .tileSize = p.tileSize},
+         state.radiance, progress, observe);
+    fill(state, field, "gloss",
+         {.lines = p.glossDirections,
+          .cells = p.glossCells,
+          .tileSize = p.tileSize,
+          .kind = MirrorKind::rough,
+          .gloss = p.gloss},
+         state.gloss, progress, observe);
     field.radiance = std::move(state.radiance.field);
+    field.gloss = std::move(state.gloss.field);
     state.radiance = {};
-    state.report.radianceElements = field.radiance.elements.size();
+    state.gloss = {};
+    state.report.radianceElements = field.radiance.elements.size() + field.gloss.elements.size();
 }
 
 }  // namespace
@@ -147,6 +167,9 @@ BakeParams presetParams(const std::string& name) {
         p.settlingSweeps = 1;
         p.radianceDirections = 513;
         p.radianceCells = 128;
+        p.glossDirections = 129;
+        p.glossCells = 64;
+        p.gloss = {16, 4};
     } else if (name == "high") {
         p.directions = 8193;
         p.cells = 512;
@@ -156,6 +179,8 @@ BakeParams presetParams(const std::string& name) {
         p.coarseDirections = 513;
         p.settlingSweeps = 6;
         p.radianceCells = 512;
+        p.glossDirections = 2049;
+        p.glossCells = 256;
     } else if (name != "standard") {
         throw InputError("unknown preset '" + name + "': choose draft, standard or high");
     }
@@ -188,12 +213,14 @@ LightField unlitField(const BakeState& state) {
 LightField finish(BakeState& state, Progress& progress, const BakeObserver& observe) {
     LightField field = unlitField(state);
     field.atlas = timed(state.report, progress, "atlas", [&] { return fillAtlas(state); });
-    addRadianceField(state, field, progress, observe);
+    addRadianceFields(state, field, progress, observe);
     state.report.energy = energyBalance(state);
     BakeRecord& r = field.record;
     r.radianceDirections = field.radiance.lines;
     r.radianceCells = field.radiance.cells;
-    r.tileSize = field.radiance.tileSize;
+    r.glossDirections = field.gloss.lines;
+    r.glossCells = field.gloss.cells;
+    r.tileSize = field.radiance.empty() ? field.gloss.tileSize : field.radiance.tileSize;
     r.bounces = state.report.sweeps;
     r.residual = state.report.residual;
     r.energy = state.report.energy;

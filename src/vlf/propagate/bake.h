@@ -9,6 +9,7 @@
 #include "vlf/propagate/bundle_faces.h"
 #include "vlf/propagate/bundle_sweep.h"
 #include "vlf/propagate/light_sources.h"
+#include "vlf/propagate/mirror_view.h"
 #include "vlf/scene/scene.h"
 #include "vlf/trace/ray_scene.h"
 #include "vlf/unwrap/unwrap.h"
@@ -35,6 +36,9 @@ struct BakeParams {
     int settlingSweeps = 8;         ///< twice as many follow; the mean of the later half goes on
     int radianceDirections = 2049;  ///< of the radiance field of mirror charts; 0: none
     int radianceCells = 256;
+    int glossDirections = 513;  ///< of that of rough mirror charts; 0: none
+    int glossCells = 128;
+    GlossSamples gloss{};
     int tileSize = 8;  ///< m, a power of two
     std::uint64_t seed = 0;
 };

@@ -47,7 +47,8 @@ void checkSolution(const BakeState& s) {
         s.directIrradiance.size() == lit && s.irradiance.size() == lit && s.reached.size() == lit &&
         noneOr(s.convergence.charts.size(), s.unwrap.charts.size()) && s.settling.sweeps >= 0 &&
         noneOr(s.settling.sum.size(), texels) && fits(s.sweep, s) &&
-        noneOr(s.radiance.done.size(), 2 * static_cast<std::size_t>(s.params.radianceDirections));
+        noneOr(s.radiance.done.size(), 2 * static_cast<std::size_t>(s.params.radianceDirections)) &&
+        noneOr(s.gloss.done.size(), 2 * static_cast<std::size_t>(s.params.glossDirections));
     if (!fitting) throw InputError("what was baked before is not of this scene");
 }
 

@@ -58,7 +58,7 @@ struct BakeReport {
     };
     std::vector<Stage> stages;  ///< of this process, without what it went on from
     std::size_t texels = 0;
-    std::size_t radianceElements = 0;
+    std::size_t radianceElements = 0;  ///< of perfect and rough mirrors
     std::uint64_t exchanges = 0;
     int sweeps = 0;
     double residual = 1;  ///< estimated light still missing, relative
@@ -76,7 +76,7 @@ struct BakeSolution {
     ConvergenceHistory convergence;
     Settling settling;
     Sweep sweep;
-    PartialRadiance radiance;
+    PartialRadiance radiance, gloss;  ///< of perfect and rough mirrors
 };
 
 /// Calls visit(name, member) for all that has to be kept of a solution, so that whatever keeps it
@@ -88,7 +88,7 @@ template <class S, class Visit>
 void visitSolution(S& solution, Visit&& visit) {
     // Names all members: one that is added has to be thought of here.
     auto& [stage, report, direct, directIrradiance, irradiance, reached, convergence, settling,
-           sweep, radiance] = solution;
+           sweep, radiance, gloss] = solution;
     visit("stage", stage);
     visit("exchanges", report.exchanges);
     visit("sweeps", report.sweeps);
@@ -119,6 +119,8 @@ void visitSolution(S& solution, Visit&& visit) {
     }
     visit("radiance", radiance.field.elements);
     visit("radiance.done", radiance.done);
+    visit("gloss", gloss.field.elements);
+    visit("gloss.done", gloss.done);
 }
 
 struct BakeState;

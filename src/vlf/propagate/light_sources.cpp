@@ -206,7 +206,7 @@ LightSources findLightSources(const Scene& scene, const Unwrap& unwrap) {
     sources.mirrorChart = chartsOfMirrorTexels(scene, unwrap);
     std::map<std::uint32_t, Vec3> mirrors;  // planar mirror chart -> a point of it
     for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) {
-        if (!scene.material(t).isMirror()) continue;
+        if (!scene.material(t).isMirror() || scene.material(t).isGlossy()) continue;
         for (const std::uint32_t c :
              {unwrap.triangleCharts[t].front, unwrap.triangleCharts[t].back})
             if (c != kNoChart && unwrap.charts[c].planar) {

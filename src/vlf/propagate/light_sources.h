@@ -62,7 +62,7 @@ struct LightImage {
 struct LightSources {
     std::vector<Light> lights;
     std::vector<LightImage> images;
-    std::vector<std::uint8_t> planarMirror;  ///< per chart
+    std::vector<std::uint8_t> planarMirror;  ///< per chart: flat, a perfect mirror
     std::vector<float> mirrorOffset;         ///< per chart: of a planar mirror's plane
     std::vector<std::uint32_t> mirrorChart;  ///< chart of each atlas texel of a mirror
     int imageDepth = 0;     ///< chains of up to this many planar mirrors are in `images`

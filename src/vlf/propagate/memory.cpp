@@ -18,11 +18,13 @@ constexpr double kAtlasOverhead = 1.3;     // gutters, gaps, texels cut by edges
 constexpr double kElementBytes = 6;        // RadianceElement
 constexpr double kRadianceOverhead = 1.4;  // whole tiles, guard band; measured for m = 8
 
-double mirrorArea(const Scene& scene) {
-    double sum = 0;
+/// Elements of a radiance field: half of all directions see a side, at a mean cosine of one half.
+double elements(const Scene& scene, MirrorKind kind, int lines, int cells) {
+    double mirrors = 0;
     for (std::uint32_t t = 0; t < scene.triangles.size(); ++t)
-        if (scene.material(t).isMirror()) sum += area(scene, t);
-    return sum;
+        if (scene.material(t).isMirror(kind)) mirrors += area(scene, t);
+    const double cell = 2.0 * boundingSphere(scene).radius / (cells - 1);
+    return 0.5 * lines * mirrors / (cell * cell);
 }
 
 double gibibytes(double bytes) {
@@ -44,10 +46,10 @@ MemoryNeed predictMemory(const Scene& scene, const BakeParams& params) {
     need.transport =
         static_cast<std::uint64_t>(kBase + kAtlasOverhead * kPerTexel * texels +
                                    kPerTriangle * static_cast<double>(scene.triangles.size()));
-    // Half of all directions see a side, at a mean cosine of one half.
-    const double cell = 2.0 * boundingSphere(scene).radius / (params.radianceCells - 1);
-    const double elements = 0.5 * params.radianceDirections * mirrorArea(scene) / (cell * cell);
-    need.radiance = static_cast<std::uint64_t>(kRadianceOverhead * kElementBytes * elements);
+    const double count =
+        elements(scene, MirrorKind::perfect, params.radianceDirections, params.radianceCells) +
+        elements(scene, MirrorKind::rough, params.glossDirections, params.glossCells);
+    need.radiance = static_cast<std::uint64_t>(kRadianceOverhead * kElementBytes * count);
     return need;
 }
 
@@ -59,7 +61,8 @@ void requireMemory(const Scene& scene, const BakeParams& params, std::uint64_t b
     if (static_cast<double>(need.radiance) > 0.5 * limit) {
         const double scale = std::sqrt(0.4 * limit / static_cast<double>(need.radiance));
         advice +=
-            " --radiance-cells " + std::to_string(static_cast<int>(params.radianceCells * scale));
+            " --radiance-cells " + std::to_string(static_cast<int>(params.radianceCells * scale)) +
+            " --gloss-cells " + std::to_string(static_cast<int>(params.glossCells * scale));
     }
     if (static_cast<double>(need.transport) > 0.5 * limit) {
         const double size =

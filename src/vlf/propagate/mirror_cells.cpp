@@ -100,11 +100,12 @@ struct MirrorCellFinder::Projected {
     }
 };
 
-std::vector<MirrorChart> mirrorCharts(const Scene& scene, const LightField& field) {
+std::vector<MirrorChart> mirrorCharts(const Scene& scene, const LightField& field,
+                                      MirrorKind kind) {
     std::vector<std::uint32_t> place(field.charts.size(), kNoChart);
     std::vector<MirrorChart> mirrors;
     for (std::uint32_t c = 0; c < field.charts.size(); ++c)
-        if (scene.materials[field.charts[c].material].isMirror()) {
+        if (scene.materials[field.charts[c].material].isMirror(kind)) {
             place[c] = static_cast<std::uint32_t>(mirrors.size());
             mirrors.push_back({c, field.charts[c].planar, {}});
         }

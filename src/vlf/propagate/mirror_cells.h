@@ -21,8 +21,8 @@ struct MirrorChart {
     std::vector<Side> sides;
 };
 
-/// All charts whose material is a mirror, ascending.
-std::vector<MirrorChart> mirrorCharts(const Scene& scene, const LightField& field);
+/// All charts whose material is a mirror of this kind, ascending.
+std::vector<MirrorChart> mirrorCharts(const Scene& scene, const LightField& field, MirrorKind kind);
 
 /// A cell's place on a chart.
 struct MirrorCell {

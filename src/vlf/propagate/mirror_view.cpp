@@ -1,8 +1,10 @@
 #include "vlf/propagate/mirror_view.h"
 
+#include "vlf/math/microfacet.h"
 #include "vlf/propagate/ray_gather.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace vlf {
 
@@ -10,7 +12,10 @@ namespace {
 
 constexpr float kMinThroughput = 1e-4f;
 constexpr float kMinCosine = 0.05f;
-constexpr float kInset = 1e-3f;  // of the way to the middle of a triangle
+constexpr float kGrazing = 1e-4f;
+constexpr float kInset = 1e-3f;     // of the way to the middle of a triangle
+constexpr float kSmoothing = 0.4f;  // radius of the mean over cells, of the width of the lobe
+constexpr int kMaxReach = 8;        // cells
 
 /// About the geometric normal `side` where the shading normal would send the ray into the surface.
 Vec3 reflectAbove(const Vec3& direction, const Vec3& normal, const Vec3& side) {
@@ -72,30 +77,153 @@ void MirrorViewTracer::start(bool planar) {
         const Vec3 mirror = mirrorReflectance(scene_, scene_.material(c.triangle), uv);
         rayQueue_.push_back(
             {c.position + rays_.epsilon() * side, reflectAbove(-toEye_, normal, side)});
-        paths_.push_back({i, mirror, 0, true, true});
+        paths_.push_back({i, mirror, 0, true, true, false, 0});
     }
 }
 
-Vec3 MirrorViewTracer::radianceSeen(const Arrival& at) const {
-    const Vec3 irradiance = field_.atlas.sample(at.chart, at.chart.texelCoordinates(at.position));
-    Vec3 radiance = diffuseReflectance(scene_, at.material, at.uv) * irradiance / kPi;
-    if (at.material.isEmitter() && (at.front || at.material.emitsBothSides))
-        radiance += emittedRadiance(scene_, at.material, at.uv);
-    return radiance;
+/// A point of a rough mirror, seen from somewhere.
+struct MirrorViewTracer::RoughPoint {
+    Vec3 position, side;  ///< the latter the geometric normal
+    Frame frame;          ///< about the shading normal, or the former where that cannot be seen
+    Vec3 toEye;           ///< in it
+    float roughness;
+
+    RoughPoint(const Vec3& at, const Vec3& geometric, const Vec3& shading, const Vec3& eye,
+               float width)
+        : position(at),
+          side(geometric),
+          frame(frameFromNormal(glm::dot(shading, eye) < kMinCosine ? geometric : shading)),
+          toEye(frame.toLocal(eye)),
+          roughness(width) {
+        toEye.z = std::max(toEye.z, kGrazing);
+    }
+};
+
+void MirrorViewTracer::startRough(float roughness, RandomStream& random) {
+    views_.assign(cells_.size(), {});
+    distances_.assign(cells_.size(), {});
+    nextPaths_.clear();
+    nextRays_.clear();
+    for (std::uint32_t i = 0; i < cells_.size(); ++i) {
+        const MirrorCell& c = cells_[i];
+        const Vec3 side = sideNormal(scene_, c.triangle, c.front);
+        const Vec3 mirror = mirrorReflectance(scene_, scene_.material(c.triangle),
+                                              uvAt(scene_, c.triangle, c.barycentric));
+        const RoughPoint at(c.guard ? pointWithin(c) : c.position, side,
+                            mirrorNormal(scene_, c.triangle, c.barycentric, side, false), toEye_,
+                            roughness);
+        scatter({i, mirror, 0, true, true, true, 0}, at, samples_, random);
+    }
+    std::swap(paths_, nextPaths_);
+    std::swap(rayQueue_, nextRays_);
 }
 
-void MirrorViewTracer::reflect(Path path, const Vec3& direction, const Arrival& at) {
+/// Goes on by the lobe of a rough mirror, and looks for emitters by points on them.
+void MirrorViewTracer::scatter(Path path, const RoughPoint& at, const GlossSamples& samples,
+                               RandomStream& random) {
+    const Vec2 shift = random.next2();
+    const auto rays = static_cast<float>(samples.reflections);
+    const int points = emitters_.empty() ? 0 : samples.emitters;
+    for (int k = 0; k < samples.reflections; ++k) {
+        const Vec3 facet =
+            sampleGgxNormal(at.roughness, at.toEye, r2Point(static_cast<std::uint32_t>(k), shift));
+        const Vec3 local = glm::reflect(-at.toEye, facet);
+        const Vec3 direction = at.frame.toWorld(local);
+        const float weight = ggxVisible(at.roughness, local);
+        if (weight <= 0 || glm::dot(direction, at.side) <= 0) continue;
+        nextRays_.push_back({at.position + rays_.epsilon() * at.side, direction});
+        Path& next = nextPaths_.emplace_back(path);
+        next.throughput *= weight / rays;
+        if (points > 0)
+            next.raysPerPoint =
+                rays * ggxDensity(at.roughness, at.toEye, local) / static_cast<float>(points);
+    }
+    for (int k = 0; k < points; ++k) addPoint(path, at, samples, emitters_.sample(random));
+}
+
+/// Light of a point of an emitter, by the balance heuristic.
+void MirrorViewTracer::addPoint(const Path& path, const RoughPoint& at, const GlossSamples& samples,
+                                const SidePoint& point) {
+    const Vec3 origin = at.position + rays_.epsilon() * at.side;
+    const Vec3 to = positionAt(scene_, point.triangle, point.barycentric) - origin;
+    const float distance = std::max(glm::length(to), 1e-10f);
+    const Vec3 direction = to / distance;
+    const float cosine = -glm::dot(geometricNormal(scene_, point.triangle), direction);
+    const Material& material = scene_.material(point.triangle);
+    if (glm::dot(at.side, direction) <= 0 || (cosine <= 0 && !material.emitsBothSides)) return;
+    const Vec3 local = at.frame.toLocal(direction);
+    const float density =
+        static_cast<float>(samples.emitters) * pointDensity(point.triangle, distance, cosine) +
+        static_cast<float>(samples.reflections) * ggxDensity(at.roughness, at.toEye, local);
+    const Vec3 light =
+        path.throughput * (ggxLobe(at.roughness, at.toEye, local) / density) *
+        emittedRadiance(scene_, material, uvAt(scene_, point.triangle, point.barycentric));
+    if (maxComponent(light) <= 0) return;
+    shadowRays_.push_back({origin, to, 0, 1 - 2 * rays_.epsilon() / distance});
+    pointLights_.push_back({path.cell, light});
+}
+
+/// Of points on emitters, per steradian.
+float MirrorViewTracer::pointDensity(std::uint32_t triangle, float distance, float cosine) const {
+    return emitters_.density(triangle) * distance * distance / std::max(std::abs(cosine), kGrazing);
+}
+
+/// What of an emitter that a ray has met the points on it leave to it.
+float MirrorViewTracer::emitterWeight(const Path& path, const Ray& ray, const Hit& hit) const {
+    if (path.raysPerPoint <= 0) return 1;
+    const float cosine = glm::dot(geometricNormal(scene_, hit.triangle), ray.direction);
+    return path.raysPerPoint / (path.raysPerPoint + pointDensity(hit.triangle, hit.t, cosine));
+}
+
+void MirrorViewTracer::addVisiblePoints() {
+    blocked_.resize(shadowRays_.size());
+    rays_.occluded(shadowRays_, blocked_);
+    for (std::size_t i = 0; i < pointLights_.size(); ++i)
+        if (!blocked_[i]) views_[pointLights_[i].cell].radiance += pointLights_[i].radiance;
+    shadowRays_.clear();
+    pointLights_.clear();
+}
+
+Vec3 MirrorViewTracer::diffuseRadiance(const Arrival& at) const {
+    const Vec3 irradiance = field_.atlas.sample(at.chart, at.chart.texelCoordinates(at.position));
+    return diffuseReflectance(scene_, at.material, at.uv) * irradiance / kPi;
+}
+
+Vec3 MirrorViewTracer::emission(const Arrival& at) const {
+    const bool emits = at.material.isEmitter() && (at.front || at.material.emitsBothSides);
+    return emits ? emittedRadiance(scene_, at.material, at.uv) : Vec3(0);
+}
+
+void MirrorViewTracer::reflect(Path path, const Vec3& direction, const Arrival& at,
+                               RandomStream& random) {
     path.throughput *= mirrorReflectance(scene_, at.material, at.uv);
     if (maxComponent(path.throughput) < kMinThroughput) return;
-    path.unfolding = path.unfolding && at.chart.planar &&
+    path.unfolding = path.unfolding && distances_.empty() && at.chart.planar &&
+                     !at.material.isGlossy() &&
                      maxComponent(at.material.mirror) > maxComponent(at.material.diffuse);
     path.first = false;
+    path.raysPerPoint = 0;
     const Vec3 side = sideNormal(scene_, at.hit.triangle, at.front);
     const Vec3 normal =
         mirrorNormal(scene_, at.hit.triangle, at.hit.barycentric, side, at.chart.planar);
+    if (at.material.isGlossy()) {
+        const bool again = std::exchange(path.scattered, true);
+        scatter(path, {at.position, side, normal, -direction, at.material.roughness},
+                again ? GlossSamples{1, 1} : samples_, random);
+        return;
+    }
     nextRays_.push_back(
         {at.position + rays_.epsilon() * side, reflectAbove(direction, normal, side)});
     nextPaths_.push_back(path);
+}
+
+void MirrorViewTracer::noteDistance(const Path& path, float distance) {
+    if (distances_.empty()) {
+        views_[path.cell].distance = distance;
+    } else {
+        distances_[path.cell].inverseSum += 1 / distance;
+        ++distances_[path.cell].count;
+    }
 }
 
 std::uint32_t MirrorViewTracer::chartHit(const Ray& ray, const Hit& hit) const {
@@ -104,14 +232,17 @@ std::uint32_t MirrorViewTracer::chartHit(const Ray& ray, const Hit& hit) const {
     return front ? sides.front : sides.back;
 }
 
+Vec3 MirrorViewTracer::pointWithin(const MirrorCell& cell) const {
+    const Vec2 inset = cell.barycentric + kInset * (Vec2(1.0f / 3) - cell.barycentric);
+    return positionAt(scene_, cell.triangle, inset);
+}
+
 /// Starts a guard cell again from the chart's point next to it.
 void MirrorViewTracer::restart(Path path, const Ray& ray) {
     const MirrorCell& cell = cells_[path.cell];
-    const Vec2 inset = cell.barycentric + kInset * (Vec2(1.0f / 3) - cell.barycentric);
     const Vec3 side = sideNormal(scene_, cell.triangle, cell.front);
     path.first = false;
-    nextRays_.push_back(
-        {positionAt(scene_, cell.triangle, inset) + rays_.epsilon() * side, ray.direction});
+    nextRays_.push_back({pointWithin(cell) + rays_.epsilon() * side, ray.direction});
     nextPaths_.push_back(path);
 }
 
@@ -122,12 +253,12 @@ bool MirrorViewTracer::isHidden(const Vec3& p) const {
     return hit && chartHit(ray, hit) == kNoChart;
 }
 
-void MirrorViewTracer::arrive(const Path& path, const Ray& ray, const Hit& hit) {
-    MirrorView& view = views_[path.cell];
+void MirrorViewTracer::arrive(const Path& path, const Ray& ray, const Hit& hit,
+                              RandomStream& random) {
     const std::uint32_t chart = hit ? chartHit(ray, hit) : kNoChart;
     if (chart == kNoChart && path.first && cells_[path.cell].guard) return restart(path, ray);
     if (!hit && path.unfolding && !(path.length == 0 && isHidden(ray.origin)))
-        view.distance = longest_;
+        noteDistance(path, longest_);
     if (chart == kNoChart) return;
     const bool front = glm::dot(areaVector(scene_, hit.triangle), ray.direction) < 0;
     const Arrival at{hit,
@@ -138,17 +269,61 @@ void MirrorViewTracer::arrive(const Path& path, const Ray& ray, const Hit& hit) 
                      uvAt(scene_, hit.triangle, hit.barycentric)};
     Path next = path;
     next.length += std::max(hit.t, rays_.epsilon());
-    if (path.unfolding) view.distance = next.length;
-    view.radiance += path.throughput * radianceSeen(at);
-    if (at.material.isMirror()) reflect(next, ray.direction, at);
+    if (path.unfolding) noteDistance(path, next.length);
+    views_[path.cell].radiance +=
+        path.throughput * (diffuseRadiance(at) + emitterWeight(path, ray, hit) * emission(at));
+    if (at.material.isMirror()) reflect(next, ray.direction, at, random);
 }
 
-void MirrorViewTracer::advance() {
+/// Means over neighbouring cells, of noise: as far about each as a part of its lobe is wide at the
+/// distance of what it sees, and where the mirror faces alike.
+void MirrorViewTracer::smooth(float roughness) {
+    if (cells_.empty()) return;
+    const auto [x0, x1] = std::minmax_element(
+        cells_.begin(), cells_.end(), [](const auto& a, const auto& b) { return a.x < b.x; });
+    const auto [y0, y1] = std::minmax_element(
+        cells_.begin(), cells_.end(), [](const auto& a, const auto& b) { return a.y < b.y; });
+    const int left = x0->x, top = y0->y, width = x1->x - left + 1, height = y1->y - top + 1;
+    std::vector<std::int32_t> at(static_cast<std::size_t>(width) * height, -1);
+    std::vector<Vec3> normals(cells_.size());
+    for (std::size_t i = 0; i < cells_.size(); ++i) {
+        at[static_cast<std::size_t>(cells_[i].y - top) * width + cells_[i].x - left] =
+            static_cast<std::int32_t>(i);
+        normals[i] = mirrorNormal(scene_, cells_[i].triangle, cells_[i].barycentric,
+                                  sideNormal(scene_, cells_[i].triangle, cells_[i].front), false);
+    }
+    const std::vector<MirrorView> noisy = views_;
+    for (std::size_t i = 0; i < cells_.size(); ++i) {
+        if (noisy[i].distance <= 0) continue;
+        const float radius = kSmoothing * roughness * noisy[i].distance / cellSize_;
+        const int reach = std::min(kMaxReach, static_cast<int>(2 * radius));
+        if (reach == 0) continue;
+        Vec3 sum(0);
+        float weights = 0, nearness = 0;
+        for (int y = std::max(cells_[i].y - reach, top);
+             y <= std::min(cells_[i].y + reach, top + height - 1); ++y)
+            for (int x = std::max(cells_[i].x - reach, left);
+                 x <= std::min(cells_[i].x + reach, left + width - 1); ++x) {
+                const std::int32_t j = at[static_cast<std::size_t>(y - top) * width + x - left];
+                if (j < 0 || noisy[j].distance <= 0) continue;
+                const Vec2 away = Vec2(x - cells_[i].x, y - cells_[i].y) / radius;
+                const Vec3 turned = (normals[j] - normals[i]) / (kSmoothing * roughness);
+                const float w = std::exp(-0.5f * (glm::dot(away, away) + glm::dot(turned, turned)));
+                sum += w * noisy[j].radiance;
+                nearness += w / noisy[j].distance;
+                weights += w;
+            }
+        views_[i] = {sum / weights, weights / nearness};
+    }
+}
+
+void MirrorViewTracer::advance(RandomStream& random) {
     hits_.resize(rayQueue_.size());
     rays_.closest(rayQueue_, hits_);
     nextPaths_.clear();
     nextRays_.clear();
-    for (std::size_t i = 0; i < hits_.size(); ++i) arrive(paths_[i], rayQueue_[i], hits_[i]);
+    for (std::size_t i = 0; i < hits_.size(); ++i)
+        arrive(paths_[i], rayQueue_[i], hits_[i], random);
     std::swap(paths_, nextPaths_);
     std::swap(rayQueue_, nextRays_);
 }
@@ -166,11 +341,24 @@ void MirrorViewTracer::formImages() {
 }
 
 const std::vector<MirrorView>& MirrorViewTracer::trace(std::span<const MirrorCell> cells,
-                                                       const Vec3& toEye, bool planar) {
+                                                       const Vec3& toEye, bool planar,
+                                                       RandomStream& random) {
     cells_ = cells;
     toEye_ = toEye;
-    start(planar);
-    for (int step = 0; step <= kMaxReflections && !rayQueue_.empty(); ++step) advance();
+    distances_.clear();
+    const Material* glossy = !cells.empty() && scene_.material(cells[0].triangle).isGlossy()
+                                 ? &scene_.material(cells[0].triangle)
+                                 : nullptr;
+    if (glossy)
+        startRough(glossy->roughness, random);
+    else
+        start(planar);
+    for (int step = 0; step <= kMaxReflections && !rayQueue_.empty(); ++step) advance(random);
+    addVisiblePoints();
+    for (std::size_t i = 0; i < distances_.size(); ++i)
+        if (distances_[i].count > 0)
+            views_[i].distance = static_cast<float>(distances_[i].count) / distances_[i].inverseSum;
+    if (glossy) smooth(glossy->roughness);
     if (!planar) formImages();
     for (MirrorView& v : views_) v.distance = std::min(v.distance, longest_);
     return views_;

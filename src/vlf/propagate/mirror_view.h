@@ -1,8 +1,12 @@
 #pragma once
-// What the cells of a mirror chart show: reflected rays followed to diffuse surfaces.
+// What the cells of a mirror chart show: reflected rays followed to diffuse surfaces. Of a rough
+// mirror they are many a cell, and emitters are sought by points on them, too (E. Veach and
+// L. Guibas, "Optimally combining sampling techniques for Monte Carlo rendering", 1995).
 
 #include "vlf/field/light_field.h"
+#include "vlf/math/random.h"
 #include "vlf/propagate/mirror_cells.h"
+#include "vlf/scene/emitter_sampler.h"
 #include "vlf/scene/scene.h"
 #include "vlf/trace/ray_scene.h"
 
@@ -14,8 +18,15 @@ namespace vlf {
 
 struct MirrorView {
     Vec3 radiance{0};    ///< leaving the mirror, W·m⁻²·sr⁻¹
-    float distance = 0;  ///< from the mirror to the image of what is seen, metres; 0: nothing, the
-                         ///< cell lies within a solid or outside the room
+    float distance = 0;  ///< from the mirror to the image of what is seen, metres (of a rough one
+                         ///< the harmonic mean); 0: nothing, the cell lies within a solid or
+                         ///< outside the room
+};
+
+/// How many samples of what a rough mirror reflects make the light of a cell.
+struct GlossSamples {
+    int reflections = 32;  ///< rays by its lobe
+    int emitters = 8;      ///< points on emitters
 };
 
 /// Distance behind a mirror of the image of a point at distance d > 0 before it: the mean of the
@@ -30,45 +41,84 @@ float imageDistance(float d, float curvature, float cosine, float longest);
 class MirrorViewTracer {
   public:
     /// Distances are limited to `longest`, which is also that of rays that leave the scene.
+    /// `cellSize`: of cells, metres.
     MirrorViewTracer(const Scene& scene, const RayScene& rays, const LightField& field,
-                     float longest)
-        : scene_(scene), rays_(rays), field_(field), longest_(longest) {}
+                     const EmitterSampler& emitters, const GlossSamples& samples, float longest,
+                     float cellSize)
+        : scene_(scene),
+          rays_(rays),
+          field_(field),
+          emitters_(emitters),
+          samples_(samples),
+          longest_(longest),
+          cellSize_(cellSize) {}
 
     /// What each of the cells (of one chart) shows in unit direction `toEye`. In a planar mirror
     /// seen in the mirror the distance goes on, along the path. Valid until the next call.
     const std::vector<MirrorView>& trace(std::span<const MirrorCell> cells, const Vec3& toEye,
-                                         bool planar);
+                                         bool planar, RandomStream& random);
 
   private:
     struct Path {
         std::uint32_t cell;
         Vec3 throughput;
-        float length;    ///< metres so far
-        bool unfolding;  ///< whether what comes next decides the distance
-        bool first;      ///< from the cell itself
+        float length;        ///< metres so far
+        bool unfolding;      ///< whether what comes next decides the distance
+        bool first;          ///< from the cell itself
+        bool scattered;      ///< by a rough mirror
+        float raysPerPoint;  ///< density of a rough mirror's rays by that of the points on emitters
+                             ///< that are sought from it, sr⁻¹; 0: there are none
     };
     struct Arrival;
+    struct RoughPoint;
+    struct PointLight {
+        std::uint32_t cell;
+        Vec3 radiance;
+    };
+    /// How far what is seen by the rays of a rough mirror's cell lies.
+    struct Distances {
+        float inverseSum = 0;
+        int count = 0;
+    };
 
     void start(bool planar);
+    void startRough(float roughness, RandomStream& random);
+    void scatter(Path path, const RoughPoint& at, const GlossSamples& samples,
+                 RandomStream& random);
+    void addPoint(const Path& path, const RoughPoint& at, const GlossSamples& samples,
+                  const SidePoint& point);
+    float pointDensity(std::uint32_t triangle, float distance, float cosine) const;
+    float emitterWeight(const Path& path, const Ray& ray, const Hit& hit) const;
+    void addVisiblePoints();
+    Vec3 pointWithin(const MirrorCell& cell) const;
     std::uint32_t chartHit(const Ray& ray, const Hit& hit) const;
     void restart(Path path, const Ray& ray);
     bool isHidden(const Vec3& p) const;
-    void advance();
-    void arrive(const Path& path, const Ray& ray, const Hit& hit);
-    Vec3 radianceSeen(const Arrival& at) const;
-    void reflect(Path path, const Vec3& direction, const Arrival& at);
+    void advance(RandomStream& random);
+    void arrive(const Path& path, const Ray& ray, const Hit& hit, RandomStream& random);
+    void noteDistance(const Path& path, float distance);
+    Vec3 diffuseRadiance(const Arrival& at) const;
+    Vec3 emission(const Arrival& at) const;
+    void reflect(Path path, const Vec3& direction, const Arrival& at, RandomStream& random);
+    void smooth(float roughness);
     void formImages();
 
     const Scene& scene_;
     const RayScene& rays_;
     const LightField& field_;
-    float longest_;
+    const EmitterSampler& emitters_;
+    GlossSamples samples_;
+    float longest_, cellSize_;
     std::span<const MirrorCell> cells_;
     Vec3 toEye_{0};
     std::vector<MirrorView> views_;
+    std::vector<Distances> distances_;  ///< by cell; empty: of a perfect mirror
     std::vector<Path> paths_, nextPaths_;
     std::vector<Ray> rayQueue_, nextRays_;
     std::vector<Hit> hits_;
+    std::vector<PointLight> pointLights_;  ///< of points on emitters, by shadowRays_
+    std::vector<Ray> shadowRays_;
+    std::vector<std::uint8_t> blocked_;
 };
 
 }  // namespace vlf

@@ -98,7 +98,7 @@ bool sweepBundles(BakeState& state, const DirectionSet& directions, int cells, i
             sights.clear();
             s.exchanges[a] +=
                 sweepBundle(state.faces, subfield, radiance, s.parts[a], sights, scratch);
-            mirrors.gatherFromMirrors(subfield, sights, radiance, s.parts[a]);
+            mirrors.gatherFromMirrors(subfield, sights, random, radiance, s.parts[a]);
             bent.take(direction, s.parts[a]);
             s.nextLine[a] += kAccumulators;
             done.step();

@@ -3,7 +3,6 @@
 #include "vlf/base/error.h"
 #include "vlf/base/parallel.h"
 #include "vlf/field/direction_set.h"
-#include "vlf/propagate/mirror_view.h"
 
 #include <algorithm>
 #include <bit>
@@ -110,8 +109,8 @@ std::uint16_t packDistance(float distance, float longest) {
 RadianceSize radianceSize(const Scene& scene, const LightField& field,
                           const RadianceParams& params) {
     checkParams(params);
-    const RadianceField radiance =
-        makeRows(scene, field, DirectionSet(params.lines), mirrorCharts(scene, field), params);
+    const RadianceField radiance = makeRows(scene, field, DirectionSet(params.lines),
+                                            mirrorCharts(scene, field, params.kind), params);
     const std::uint64_t elements = elementCount(radiance);
     return {elements, elements * sizeof(RadianceElement) + radiance.rows.size() * sizeof(TileRow) +
                           radiance.firstRow.size() * sizeof(std::uint32_t)};
@@ -120,11 +119,12 @@ RadianceSize radianceSize(const Scene& scene, const LightField& field,
 bool fillRadiance(const Scene& scene, const RayScene& rays, const LightField& field,
                   const RadianceParams& params, PartialRadiance& partial, Progress& progress) {
     checkParams(params);
-    const std::vector<MirrorChart> mirrors = mirrorCharts(scene, field);
+    const std::vector<MirrorChart> mirrors = mirrorCharts(scene, field, params.kind);
     if (mirrors.empty()) return true;
     const DirectionSet directions(params.lines);
     RadianceField& radiance = partial.field;
     if (radiance.empty()) layOut(radiance, scene, field, directions, mirrors, params);
+    const EmitterSampler emitters(scene);
     const auto count = static_cast<std::size_t>(directions.directionCount());
     ProgressCounter counter(progress, count, countDone(partial.done));
     return resumeLoop(partial.done, count, 4, counter, [&](std::size_t i) {
@@ -132,12 +132,15 @@ bool fillRadiance(const Scene& scene, const RayScene& rays, const LightField& fi
         const Vec3& toEye = directions.direction(d);
         const ParallelSubfield subfield = subfieldOf(field.frame, directions, d, params.cells);
         MirrorCellFinder finder(scene);
-        MirrorViewTracer tracer(scene, rays, field, radiance.maxDistance);
+        MirrorViewTracer tracer(scene, rays, field, emitters, params.gloss, radiance.maxDistance,
+                                2 * field.frame.radius / static_cast<float>(params.cells));
+        RandomStream random(0, d);
         for (const MirrorChart& mirror : mirrors) {
             const auto rows = radiance.rowsOf(d, mirror.chart);
             if (rows.empty()) continue;
             const std::vector<MirrorCell>& cells = finder.find(mirror, subfield, toEye);
-            const std::vector<MirrorView>& views = tracer.trace(cells, toEye, mirror.planar);
+            const std::vector<MirrorView>& views =
+                tracer.trace(cells, toEye, mirror.planar, random);
             for (std::size_t c = 0; c < cells.size(); ++c) {
                 const std::uint64_t e = radiance.index(rows, cells[c].x, cells[c].y);
                 if (e == RadianceField::kNoElement) continue;

@@ -1,9 +1,10 @@
 #pragma once
-// Fills the radiance field: for every direction and cell whose ray leaves a mirror, what is seen
-// in it and how far away.
+// Fills the radiance field: for every direction and cell whose ray leaves a mirror, perfect or
+// rough, what is seen in it and how far away.
 
 #include "vlf/base/resumable_loop.h"
 #include "vlf/field/light_field.h"
+#include "vlf/propagate/mirror_view.h"
 #include "vlf/scene/scene.h"
 #include "vlf/trace/ray_scene.h"
 
@@ -12,9 +13,11 @@
 namespace vlf {
 
 struct RadianceParams {
-    int lines = 2049;  ///< of the direction set: 2·4ⁿ + 1
-    int cells = 256;   ///< N
-    int tileSize = 8;  ///< m, a power of two
+    int lines = 2049;                       ///< of the direction set: 2·4ⁿ + 1
+    int cells = 256;                        ///< N
+    int tileSize = 8;                       ///< m, a power of two
+    MirrorKind kind = MirrorKind::perfect;  ///< of which mirrors
+    GlossSamples gloss{};
 };
 
 struct RadianceSize {
@@ -32,9 +35,9 @@ struct PartialRadiance {
     LoopMarks done;       ///< oriented directions
 };
 
-/// Makes the radiance field of all charts whose material is a mirror, until it is complete (true)
-/// or a pause is due (false). Of `field`, the charts, their
-/// triangles, the atlas and the frame are read. The subfield of a direction and of its opposite is
+/// Makes the radiance field of all charts whose material is a mirror of the kind, until it is
+/// complete (true) or a pause is due (false). Of `field`, the charts, their triangles, the atlas
+/// and the frame are read. The subfield of a direction and of its opposite is
 /// makeSubfield(field.frame, direction of the line, cells).
 ///
 /// What is seen is emission (of the emitting side) and ρE/π with E from the atlas, times the

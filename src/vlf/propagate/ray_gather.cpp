@@ -1,6 +1,7 @@
 #include "vlf/propagate/ray_gather.h"
 
 #include "vlf/math/frame.h"
+#include "vlf/math/microfacet.h"
 #include "vlf/math/sampling.h"
 
 #include <algorithm>
@@ -21,9 +22,9 @@ std::uint32_t texelAt(const Unwrap& unwrap, std::uint32_t chartIndex, const Vec3
 
 }  // namespace
 
-/// A mirror whose reflection needs no look at the surface: flat and without texture.
+/// A mirror whose reflection needs no look at the surface: flat, perfect and without texture.
 bool RayGatherer::isPlainMirror(std::uint32_t chart) const {
-    return unwrap_.charts[chart].planar &&
+    return sources_.planarMirror[chart] &&
            scene_.materials[unwrap_.charts[chart].material].mirrorTexture < 0;
 }
 
@@ -73,7 +74,8 @@ Ray RayGatherer::texelRay(std::size_t texel, const Vec2& sample, RandomStream& r
     return {positionAt(scene_, p.triangle, p.barycentric) + rays_.epsilon() * surface, direction};
 }
 
-void RayGatherer::advance(const TexelBuffer& radiance, TexelBuffer& gathered) {
+void RayGatherer::advance(RandomStream& random, const TexelBuffer& radiance,
+                          TexelBuffer& gathered) {
     hits_.resize(queue_.size());
     rays_.closest(queue_, hits_);
     nextPaths_.clear();
@@ -98,7 +100,7 @@ void RayGatherer::advance(const TexelBuffer& radiance, TexelBuffer& gathered) {
                 path.throughput * radianceSeen(path, hit, chart, front, position, radiance),
                 countsItself ? 1 : 0);
         if (path.reflections < kMaxReflections && scene_.material(hit.triangle).isMirror())
-            reflect(path, queue_[i].direction, hit, chart, front, position);
+            reflect(path, queue_[i].direction, hit, chart, front, position, random);
     }
     std::swap(paths_, nextPaths_);
     std::swap(queue_, nextQueue_);
@@ -116,27 +118,35 @@ Vec3 RayGatherer::radianceSeen(const Path& path, const Hit& hit, std::uint32_t c
 }
 
 void RayGatherer::reflect(Path path, const Vec3& direction, const Hit& hit, std::uint32_t chart,
-                          bool front, const Vec3& position) {
+                          bool front, const Vec3& position, RandomStream& random) {
     const bool planar = sources_.planarMirror[chart] != 0;
-    path.throughput *= mirrorReflectance(scene_, scene_.material(hit.triangle),
-                                         uvAt(scene_, hit.triangle, hit.barycentric));
+    const Material& material = scene_.material(hit.triangle);
+    path.throughput *=
+        mirrorReflectance(scene_, material, uvAt(scene_, hit.triangle, hit.barycentric));
     path.planarOnly = path.planarOnly && planar;
     ++path.reflections;
     const Vec3 side = geometricNormal(scene_, hit.triangle) * (front ? 1.0f : -1.0f);
     Vec3 normal = planar ? side : shadingNormalAt(scene_, hit.triangle, hit.barycentric);
     if (glm::dot(normal, side) < 0) normal = -normal;
-    const Vec3 reflected = glm::reflect(direction, normal);
+    Vec3 reflected = glm::reflect(direction, normal);
+    if (material.isGlossy()) {
+        if (glm::dot(normal, direction) >= 0) normal = side;
+        const GlossyReflection glossy =
+            sampleGgxReflection(material.roughness, direction, normal, random.next2());
+        reflected = glossy.direction;
+        path.throughput *= glossy.weight;
+    }
     if (glm::dot(reflected, side) <= 0 || maxComponent(path.throughput) < kMinThroughput) return;
     nextQueue_.push_back({position + rays_.epsilon() * side, reflected});
     nextPaths_.push_back(path);
 }
 
 void RayGatherer::gatherFromMirrors(const ParallelSubfield& subfield,
-                                    const std::vector<MirrorSight>& sights,
+                                    const std::vector<MirrorSight>& sights, RandomStream& random,
                                     const TexelBuffer& radiance, TexelBuffer& gathered) {
     if (sights.empty()) return;
     startAtMirrors(subfield, sights);
-    while (!queue_.empty()) advance(radiance, gathered);
+    while (!queue_.empty()) advance(random, radiance, gathered);
 }
 
 void RayGatherer::gatherFromTexel(std::size_t i, int count, RandomStream& random,
@@ -148,7 +158,7 @@ void RayGatherer::gatherFromTexel(std::size_t i, int count, RandomStream& random
         queue_.push_back(texelRay(i, r2Point(static_cast<std::uint32_t>(k), shift), random));
         paths_.push_back({unwrap_.texels[i], 0, true, true, Vec3(1)});
     }
-    while (!queue_.empty()) advance(radiance, gathered);
+    while (!queue_.empty()) advance(random, radiance, gathered);
 }
 
 }  // namespace vlf

@@ -15,7 +15,8 @@ namespace vlf {
 /// Longest chain of mirrors followed; what is left of the light then is dropped.
 inline constexpr int kMaxReflections = 16;
 
-/// Follows rays over mirrors and adds the radiance found to their receivers.
+/// Follows rays over mirrors and adds the radiance found to their receivers. Of the directions in
+/// which a rough mirror reflects, one is drawn.
 class RayGatherer {
   public:
     RayGatherer(const Scene& scene, const RayScene& rays, const Unwrap& unwrap,
@@ -26,7 +27,8 @@ class RayGatherer {
     /// counted. `radiance`: diffuse radiance leaving each texel. Emission is added where the direct
     /// light does not have it already (LightSources::covers).
     void gatherFromMirrors(const ParallelSubfield& subfield, const std::vector<MirrorSight>& sights,
-                           const TexelBuffer& radiance, TexelBuffer& gathered);
+                           RandomStream& random, const TexelBuffer& radiance,
+                           TexelBuffer& gathered);
 
     /// `count` cosine-distributed rays from entry i of unwrap.texels, each one more sample.
     void gatherFromTexel(std::size_t i, int count, RandomStream& random,
@@ -36,17 +38,17 @@ class RayGatherer {
     struct Path {
         std::uint32_t receiver;
         int reflections;
-        bool planarOnly;  // all of these so far
+        bool planarOnly;  // all of these so far, and perfect
         bool fromTexel;   // not yet among the receiver's samples when it starts
         Vec3 throughput;
     };
 
     void startAtMirrors(const ParallelSubfield& subfield, const std::vector<MirrorSight>& sights);
-    void advance(const TexelBuffer& radiance, TexelBuffer& gathered);
+    void advance(RandomStream& random, const TexelBuffer& radiance, TexelBuffer& gathered);
     Vec3 radianceSeen(const Path& path, const Hit& hit, std::uint32_t chart, bool front,
                       const Vec3& position, const TexelBuffer& radiance) const;
     void reflect(Path path, const Vec3& direction, const Hit& hit, std::uint32_t chart, bool front,
-                 const Vec3& position);
+                 const Vec3& position, RandomStream& random);
     Ray texelRay(std::size_t texel, const Vec2& sample, RandomStream& random) const;
     bool isPlainMirror(std::uint32_t chart) const;
 

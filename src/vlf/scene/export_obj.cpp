@@ -5,6 +5,7 @@
 #include "vlf/image/image_io.h"
 
 #include <cctype>
+#include <cmath>
 #include <filesystem>
 #include <iterator>
 #include <set>
@@ -90,13 +91,17 @@ void printColour(Text& out, const char* statement, const Vec3& c) {
 
 Text materialText(const Scene& scene, const std::vector<std::string>& names,
                   const std::vector<std::string>& files) {
-    constexpr int kIllumDiffuse = 1, kIllumMirror = 3;
+    constexpr int kIllumDiffuse = 1, kIllumGlossy = 2, kIllumMirror = 3;
     Text out;
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
         const Material& m = scene.materials[i];
-        print(out, "newmtl {}\nillum {}\n", names[i], m.isMirror() ? kIllumMirror : kIllumDiffuse);
+        const int model = m.isGlossy()   ? kIllumGlossy
+                          : m.isMirror() ? kIllumMirror
+                                         : kIllumDiffuse;
+        print(out, "newmtl {}\nillum {}\n", names[i], model);
         printColour(out, "Kd", m.diffuse);
         printMap(out, "map_Kd", scene, m.diffuseTexture, files);
+        if (m.isGlossy()) print(out, "Pr {}\n", std::sqrt(m.roughness));
         if (m.isMirror()) {
             printColour(out, "Ks", m.mirror);
             printMap(out, "map_Ks", scene, m.mirrorTexture, files);

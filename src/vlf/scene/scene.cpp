@@ -68,9 +68,32 @@ bool hasEmitter(const Scene& scene) {
                        [&](const Triangle& t) { return scene.materials[t.material].isEmitter(); });
 }
 
+bool hasMirror(const Scene& scene, MirrorKind kind) {
+    return std::any_of(
+        scene.triangles.begin(), scene.triangles.end(),
+        [&](const Triangle& t) { return scene.materials[t.material].isMirror(kind); });
+}
+
 bool hasMirror(const Scene& scene) {
-    return std::any_of(scene.triangles.begin(), scene.triangles.end(),
-                       [&](const Triangle& t) { return scene.materials[t.material].isMirror(); });
+    return hasMirror(scene, MirrorKind::perfect) || hasMirror(scene, MirrorKind::rough);
+}
+
+bool makeGlossDiffuse(Scene& scene) {
+    const auto mean = [&](int texture) {
+        return texture < 0 ? Vec3(1) : scene.textures[texture].average();
+    };
+    bool any = false;
+    for (Material& m : scene.materials) {
+        if (!m.isGlossy()) continue;
+        any = true;
+        const Vec3 added = m.mirror * mean(m.mirrorTexture) /
+                           glm::max(mean(m.diffuseTexture), Vec3(1e-3f));
+        m.diffuse = glm::max(m.diffuse, glm::min(Vec3(1), m.diffuse + added));
+        m.mirror = Vec3(0);
+        m.mirrorTexture = -1;
+        m.roughness = 0;
+    }
+    return any;
 }
 
 Bounds boundsOf(const Scene& scene) {

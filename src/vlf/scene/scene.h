@@ -13,14 +13,18 @@
 
 namespace vlf {
 
-/// A surface that reflects diffusely and as a mirror and may emit. Reflectances lie in [0, 1] and
-/// diffuse + mirror <= 1 per channel (the importers scale what exceeds it). Surfaces reflect on
-/// both sides; emission leaves the side of the winding normal only, unless emitsBothSides.
+enum class MirrorKind { perfect, rough };
+
+/// A surface that reflects diffusely and as a mirror, perfect or rough, and may emit. Reflectances
+/// lie in [0, 1] and diffuse + mirror <= 1 per channel (the importers scale what exceeds it).
+/// Surfaces reflect on both sides; emission leaves the side of the winding normal only, unless
+/// emitsBothSides.
 struct Material {
     std::string name;
-    Vec3 diffuse{0.8f};   ///< Lambertian reflectance, multiplied by diffuseTexture
-    Vec3 mirror{0.0f};    ///< specular reflectance, multiplied by mirrorTexture
-    Vec3 emission{0.0f};  ///< emitted radiance, W·m⁻²·sr⁻¹, multiplied by emissionTexture
+    Vec3 diffuse{0.8f};       ///< Lambertian reflectance, multiplied by diffuseTexture
+    Vec3 mirror{0.0f};        ///< specular reflectance, multiplied by mirrorTexture
+    Vec3 emission{0.0f};      ///< emitted radiance, W·m⁻²·sr⁻¹, multiplied by emissionTexture
+    float roughness = 0;      ///< of the mirror: α of GGX (math/microfacet.h), [0, 1]; 0: perfect
     int diffuseTexture = -1;  ///< index into Scene::textures; -1: none
     int mirrorTexture = -1;
     int emissionTexture = -1;
@@ -28,6 +32,10 @@ struct Material {
 
     bool isEmitter() const { return maxComponent(emission) > 0; }
     bool isMirror() const { return maxComponent(mirror) > 0; }
+    bool isMirror(MirrorKind kind) const {
+        return isMirror() && (roughness > 0) == (kind == MirrorKind::rough);
+    }
+    bool isGlossy() const { return isMirror(MirrorKind::rough); }
     bool isPureMirror() const { return isMirror() && maxComponent(diffuse) <= 0; }
 };
 
@@ -35,6 +43,13 @@ struct Material {
 struct Triangle {
     std::array<std::uint32_t, 3> vertex{};
     std::uint32_t material = 0;
+};
+
+/// A place on one side of a triangle. `barycentric` are the weights of its second and third vertex.
+struct SidePoint {
+    std::uint32_t triangle = 0;
+    Vec2 barycentric{0};
+    bool front = true;  ///< the side of the winding normal
 };
 
 /// A named part of the scene: a contiguous range of triangles.
@@ -95,6 +110,7 @@ Vec3 emittedRadiance(const Scene& scene, const Material& material, const Vec2& u
 /// Whether any triangle's material emits, or mirrors.
 bool hasEmitter(const Scene& scene);
 bool hasMirror(const Scene& scene);
+bool hasMirror(const Scene& scene, MirrorKind kind);
 
 Bounds boundsOf(const Scene& scene);
 
@@ -104,6 +120,10 @@ struct Sphere {
     float radius = 0;
 };
 Sphere boundingSphere(const Scene& scene);
+
+/// Makes rough mirrors reflect diffusely what they reflect, as far as diffuse textures allow.
+/// Returns whether there were any.
+bool makeGlossDiffuse(Scene& scene);
 
 /// Appends `other` to `scene`: materials, textures and indices are renumbered.
 void append(Scene& scene, const Scene& other);

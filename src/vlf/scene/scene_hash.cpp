@@ -45,6 +45,7 @@ std::string sceneHash(const Scene& scene) {
     hash.add(scene.triangles);
     for (const Material& m : scene.materials) {
         for (const Vec3& v : {m.diffuse, m.mirror, m.emission}) hash.add(v);
+        hash.add(m.roughness);
         for (const int t : {m.diffuseTexture, m.mirrorTexture, m.emissionTexture}) hash.add(t);
         hash.add(m.emitsBothSides);
     }

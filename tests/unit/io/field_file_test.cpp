@@ -58,6 +58,7 @@ TEST(FieldFile, KeepsMaterialsExactly) {
         EXPECT_EQ(a.name, b.name);
         EXPECT_EQ(a.diffuse, b.diffuse);
         EXPECT_EQ(a.mirror, b.mirror);
+        EXPECT_EQ(a.roughness, b.roughness);
         EXPECT_EQ(a.emission, b.emission);
         EXPECT_EQ(a.diffuseTexture, b.diffuseTexture);
         EXPECT_EQ(a.mirrorTexture, b.mirrorTexture);
@@ -123,6 +124,8 @@ TEST(FieldFile, KeepsFrameAndBakeRecordExactly) {
     EXPECT_EQ(a.cells, b.cells);
     EXPECT_EQ(a.radianceDirections, b.radianceDirections);
     EXPECT_EQ(a.radianceCells, b.radianceCells);
+    EXPECT_EQ(a.glossDirections, b.glossDirections);
+    EXPECT_EQ(a.glossCells, b.glossCells);
     EXPECT_EQ(a.tileSize, b.tileSize);
     EXPECT_EQ(a.texelSize, b.texelSize);
     EXPECT_EQ(a.directSamples, b.directSamples);
@@ -276,7 +279,7 @@ TEST(FieldFile, StaysWithinItsBudgetOfBytes) {
     writeField(folder.file("a.vlf"), room);
     const FieldFileInfo info = readFieldInfo(folder.file("a.vlf"));
     EXPECT_LE(storedBytes(info, "irradiance") / static_cast<double>(info.counts.texels()), 2.0);
-    EXPECT_LE(storedBytes(info, "radiance") / static_cast<double>(info.counts.filledElements), 1.5);
+    EXPECT_LE(storedBytes(info, "radiance") / static_cast<double>(info.counts.radiance.filled), 1.5);
 }
 
 TEST(FieldFile, ElementsThatAreNotTheirChartsCostNextToNothing) {
@@ -297,9 +300,9 @@ TEST(FieldFile, InfoTellsWhatIsInside) {
     EXPECT_EQ(info.counts.triangles, room.scene.triangles.size());
     EXPECT_EQ(info.counts.charts, room.field.charts.size());
     EXPECT_EQ(info.counts.texels(), room.field.atlas.irradiance.size());
-    EXPECT_EQ(info.counts.radianceElements, room.field.radiance.elements.size());
-    EXPECT_GT(info.counts.filledElements, 0u);
-    EXPECT_LT(info.counts.filledElements, info.counts.radianceElements);
+    EXPECT_EQ(info.counts.radiance.elements, room.field.radiance.elements.size());
+    EXPECT_GT(info.counts.radiance.filled, 0u);
+    EXPECT_LT(info.counts.radiance.filled, info.counts.radiance.elements);
     EXPECT_EQ(info.record.preset, "standard");
     ASSERT_EQ(info.cameras.size(), 2u);
     EXPECT_EQ(info.cameras[1].name, "door");

@@ -4,6 +4,7 @@
 #include "vlf/base/error.h"
 #include "vlf/base/parallel.h"
 #include "vlf/field/direction_set.h"
+#include "vlf/math/microfacet.h"
 #include "vlf/math/random.h"
 #include "vlf/propagate/bake.h"
 #include "vlf/propagate/mirror_view.h"
@@ -41,7 +42,7 @@ test::SceneBuilder roomWithMirrors(std::initializer_list<int> walls) {
 LightField evenlyLit(const Scene& scene) {
     BakeParams params;
     params.texelBudget = 500;
-    params.radianceDirections = 0;
+    params.radianceDirections = params.glossDirections = 0;
     Progress progress;
     BakeState state = makeState(scene, params, progress);
     LightField field = finish(state, progress);
@@ -118,6 +119,53 @@ Path followPath(Vec3 p, Vec3 direction, std::initializer_list<int> mirrorAxes) {
         direction[axis] = -direction[axis];
         ++path.reflections;
     }
+}
+
+TEST(RadianceField, AnEvenlyLitRoomIsEvenInItsRoughMirror) {
+    for (const float roughness : {0.05f, 0.3f}) {
+        test::SceneBuilder b = roomWithMirrors({0});
+        b.scene().materials[1].roughness = roughness;
+        RadianceParams params = kParams;
+        params.kind = MirrorKind::rough;
+        params.gloss = {64, 8};
+        EXPECT_TRUE(bakeRoom(b.scene()).empty()) << "it is no perfect one";
+        int filled = 0;
+        double error = 0;
+        forEachCell(bakeRoom(b.scene(), params), frameOf(b.scene()), [&](const Stored& cell) {
+            if (cell.element.distance == 0) return;
+            ++filled;
+            // Rays along the mirror meet other walls, not the mirror: all see the same radiance.
+            const float expected = kMirror * ggxAlbedo(roughness, cell.toEye.x) * kWallRadiance;
+            error += unpackRgb9e5(cell.element.rgb9e5()).x / expected - 1;
+        });
+        EXPECT_GT(filled, 1000);
+        EXPECT_NEAR(error / filled, 0, 0.01) << roughness;
+    }
+}
+
+TEST(RadianceField, RoughMirrorsShowSmallLampsWithoutBias) {
+    // By points on the lamp and by rays that meet it: each alone would give the same mean.
+    test::SceneBuilder b = roomWithMirrors({0});
+    b.scene().materials[1].roughness = 0.2f;
+    b.quad({0.5f, -0.1f, -0.1f}, {0, 0, 0.2f}, {0, 0.2f, 0},
+           b.material("bulb", Vec3(0), Vec3(300)));
+    const auto meanOf = [&](const GlossSamples& samples) {
+        RadianceParams params = kParams;
+        params.kind = MirrorKind::rough;
+        params.cells = 24;
+        params.gloss = samples;
+        double sum = 0;
+        int filled = 0;
+        forEachCell(bakeRoom(b.scene(), params), frameOf(b.scene()), [&](const Stored& cell) {
+            if (cell.element.distance == 0) return;
+            sum += unpackRgb9e5(cell.element.rgb9e5()).x;
+            ++filled;
+        });
+        return sum / filled;
+    };
+    const double truth = meanOf({1024, 0});
+    EXPECT_GT(truth, 1.5 * kMirror * kWallRadiance) << "the lamp matters";
+    EXPECT_NEAR(meanOf({16, 8}), truth, 0.02 * truth);
 }
 
 TEST(RadianceField, AnEvenlyLitRoomIsEvenInItsMirror) {

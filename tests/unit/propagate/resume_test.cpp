@@ -18,7 +18,7 @@ namespace vlf::test {
 
 namespace {
 
-/// A closed room with all there is to go on with: penumbrae, a mirror, a ball of bent texels.
+/// A closed room with all there is to go on with: penumbrae, mirrors, a ball of bent texels.
 Scene room() {
     SceneBuilder b;
     const auto wall = b.material("wall", Vec3(0.7f, 0.5f, 0.4f));
@@ -26,6 +26,9 @@ Scene room() {
     b.sphere(Vec3(0.3f, -0.5f, 0.2f), 0.3f, 1, false, wall);
     b.quad({-0.9f, -0.8f, -0.8f}, {0, 0, 1.5f}, {0, 1.2f, 0},
            b.material("mirror", Vec3(0), Vec3(0), Vec3(0.8f)));
+    b.quad({0.9f, -0.8f, -0.8f}, {0, 1.2f, 0}, {0, 0, 1.5f},
+           b.material("metal", Vec3(0), Vec3(0), Vec3(0.6f)));
+    b.scene().materials.back().roughness = 0.1f;
     b.quad({-0.2f, 0.9f, -0.2f}, {0.4f, 0, 0}, {0, 0, 0.4f}, b.material("lamp", Vec3(0), Vec3(10)));
     return b.scene();
 }
@@ -39,6 +42,9 @@ BakeParams params() {
     p.settlingSweeps = 2;
     p.radianceDirections = 129;
     p.radianceCells = 48;
+    p.glossDirections = 33;
+    p.glossCells = 32;
+    p.gloss = {4, 2};
     return p;
 }
 
@@ -74,6 +80,7 @@ void expectSameBits(const std::vector<T>& a, const std::vector<T>& b) {
 void expectSame(const LightField& a, const LightField& b) {
     expectSameBits(a.atlas.irradiance, b.atlas.irradiance);
     expectSameBits(a.radiance.elements, b.radiance.elements);
+    expectSameBits(a.gloss.elements, b.gloss.elements);
     EXPECT_EQ(a.radiance.rows.size(), b.radiance.rows.size());
     EXPECT_EQ(a.record.bounces, b.record.bounces);
     EXPECT_EQ(a.record.residual, b.record.residual);
@@ -180,11 +187,12 @@ TEST_F(Resume, FromEveryKindOfPauseTheFieldIsTheSame) {
         if (!s.sweep.nextLine.empty()) kind += " sweeping";
         if (countDone(s.sweep.toppedUp) > 0) kind += " topping up";
         if (countDone(s.radiance.done) > 0) kind += " radiance";
+        if (countDone(s.gloss.done) > 0) kind += " gloss";
         kept[kind] = s;
     });
     for (const char* kind :
          {"0 within", "0 refining 2 within", "1 sweeping", "2 sweeping", "2 settling 3 sweeping",
-          "3 sweeping", "3 sweeping topping up", "4 radiance"})
+          "3 sweeping", "3 sweeping topping up", "4 radiance", "4 radiance gloss"})
         EXPECT_TRUE(kept.contains(kind)) << kind;
     int threads = 0;
     for (const auto& [kind, solution] : kept) {
@@ -241,12 +249,13 @@ TEST_F(Resume, ASolutionOfAnotherSceneIsRefused) {
 }
 
 TEST_F(Resume, ASolutionWithAnArrayOfAnotherSizeIsRefused) {
-    BakeSolution sweeping, radiating, lighting;
+    BakeSolution sweeping, radiating, glossing, lighting;
     PausingProgress progress(11);
     bake(scene, params(), progress, nullptr, [&](const BakeState& s) {
         if (s.direct.pass == 2) lighting = s;
         if (countDone(s.sweep.toppedUp) > 0) sweeping = s;
         if (countDone(s.radiance.done) > 0) radiating = s;
+        if (countDone(s.gloss.done) > 0) glossing = s;
     });
     const auto refused = [&](const BakeSolution& original, auto change) {
         BakeSolution solution = original;
@@ -273,6 +282,8 @@ TEST_F(Resume, ASolutionWithAnArrayOfAnotherSizeIsRefused) {
     refused(sweeping, [](BakeSolution& s) { s.sweep.toppedUp.pop_back(); });
     refused(radiating, [](BakeSolution& s) { s.radiance.done.pop_back(); });
     refused(radiating, [](BakeSolution& s) { s.radiance.field.elements.pop_back(); });
+    refused(glossing, [](BakeSolution& s) { s.gloss.done.pop_back(); });
+    refused(glossing, [](BakeSolution& s) { s.gloss.field.elements.pop_back(); });
 }
 
 }  // namespace vlf::test

@@ -2,6 +2,7 @@
 
 #include "picture_statistics.h"
 #include "support/analytic_scenes.h"
+#include "vlf/math/microfacet.h"
 
 #include <gtest/gtest.h>
 
@@ -43,6 +44,29 @@ TEST(PathTransport, WhiteFurnaceOfMirrors) {
     expectFurnace(furnaceMirrorBox(Vec3(0), kAlbedo, kEmission), kAlbedo);
 }
 
+/// A rough mirror seen aslant in a room that shines evenly.
+Scene glowingRoomWithRoughMirror(float roughness) {
+    SceneBuilder b;
+    b.box(Vec3(-1), Vec3(1), true, b.material("glow", Vec3(0), kEmission));
+    b.quad({-0.5f, 0, -0.5f}, {0, 0, 1}, {1, 0, 0},
+           b.material("metal", Vec3(0.2f), Vec3(0), Vec3(0.6f)));
+    b.scene().materials.back().roughness = roughness;
+    b.camera("camera", {0, 0.2f, 0.4f}, Vec3(0), 5);
+    return b.scene();
+}
+
+TEST(PathTransport, RoughMirrorsReflectTheirAlbedoInAFurnace) {
+    const float cosine = 0.2f / std::hypot(0.2f, 0.4f);
+    for (const float roughness : {0.02f, 0.1f, 0.4f, 1.0f})
+        for (const bool sampleEmitters : {true, false}) {
+            const MeanWithError mean = pictureMean(
+                trace(glowingRoomWithRoughMirror(roughness), 16, 16, 256, {0, sampleEmitters}));
+            EXPECT_LT(relativeStandardError(mean), 0.003);
+            const double albedo = 0.2 + 0.6 * ggxAlbedo(roughness, cosine);
+            EXPECT_NEAR(mean.mean.x / kEmission.x, albedo, 0.008 * albedo) << roughness;
+        }
+}
+
 void expectSameWithoutEmitterSampling(const Scene& scene) {
     const MeanWithError with = pictureMean(trace(scene, 24, 24, 256));
     const MeanWithError without = pictureMean(trace(scene, 24, 24, 512, {0, false}, 2));
@@ -57,6 +81,19 @@ TEST(PathTransport, EmitterSamplingDoesNotChangeTheMean) {
 
 TEST(PathTransport, EmitterSamplingDoesNotChangeTheMeanOfLightByMirrors) {
     expectSameWithoutEmitterSampling(mirrorBox());
+}
+
+TEST(PathTransport, EmitterSamplingDoesNotChangeTheMeanOfRoughMirrors) {
+    for (const float roughness : {0.05f, 0.5f}) {
+        Scene scene = smallCornell();
+        for (Material& m : scene.materials) {
+            if (m.isEmitter()) continue;
+            m.mirror = 0.5f * m.diffuse;
+            m.diffuse *= 0.5f;
+            m.roughness = roughness;
+        }
+        expectSameWithoutEmitterSampling(scene);
+    }
 }
 
 TEST(PathTransport, EmitterSamplingDoesNotChangeTheMeanOfTexturedLamps) {

@@ -115,7 +115,7 @@ constexpr LookupKind kKinds[] = {LookupKind::plain, LookupKind::depthCorrected};
 
 TEST(MirrorLookup, AnEvenlyLitRoomIsEvenInItsMirror) {
     const EvenRoom room;
-    const MirrorLookup lookup(room.field);
+    const MirrorLookup lookup(room.field.frame, room.field.radiance);
     RandomStream random(1, 0);
     for (int i = 0; i < 3000; ++i) {
         const Vec3 eye(4 * random.next() - 2, 3 * random.next(), 3.9f * random.next() - 1.9f);
@@ -131,7 +131,7 @@ TEST(MirrorLookup, AnEvenlyLitRoomIsEvenInItsMirror) {
 
 TEST(MirrorLookup, OfASurfaceWithoutRadianceFieldIsBlack) {
     const EvenRoom room;
-    const MirrorLookup lookup(room.field);
+    const MirrorLookup lookup(room.field.frame, room.field.radiance);
     for (const LookupKind kind : kKinds) {
         EXPECT_EQ(
             lookup.mirrorRadiance({room.mirrorChart() + 1, {0, 1, -2}, {0, 0, 1}}, {0, 0, 1}, kind),
@@ -146,7 +146,7 @@ TEST(MirrorLookup, OfASurfaceWithoutRadianceFieldIsBlack) {
 TEST(MirrorLookup, AlongADirectionOfTheSetIsWhatThatSubfieldStores) {
     const Scene scene = roomWithMirror();
     const LightField field = bakeRoom(scene, 33, 64);
-    const MirrorLookup lookup(field);
+    const MirrorLookup lookup(field.frame, field.radiance);
     const DirectionSet directions(33);
     const std::uint32_t chart = field.radiance.rows[0].chart;
     int checked = 0;

@@ -50,6 +50,17 @@ TEST_F(OpenGl, LooksMirrorsUpByDepthAsTheCpuDoes) {
         EXPECT_LT(flipAgainstCpu(mirrorRoom(), stillOf(mirrorRoom().camera(camera))), 0.02);
 }
 
+TEST_F(OpenGl, LooksRoughMirrorsUpAsTheCpuDoes) {
+    const BakedExample room = smallRoom("gloss");
+    for (const LookupKind lookup : {LookupKind::plain, LookupKind::depthCorrected}) {
+        const StillParams params = stillOf(room.camera("front"), lookup);
+        EXPECT_LT(flipAgainstCpu(room, params), 0.01);
+    }
+    StillParams traced = stillOf(room.camera("front"));
+    traced.mode = DisplayMode::raytraced;
+    EXPECT_LT(flipAgainstCpu(room, traced), 0.01);
+}
+
 TEST_F(OpenGl, TakesNewLight) {
     const BakedExample room = smallRoom("cornell");
     Renderer renderer(room.scene, room.field);

@@ -396,14 +396,15 @@ TEST_F(ImportGltf, MakesSmoothMetalsMirrors) {
     EXPECT_TRUE(report_.warnings.empty());
 }
 
-TEST_F(ImportGltf, TreatsRoughMetalsAsDiffuseWithAWarning) {
+TEST_F(ImportGltf, MakesRoughMetalsRoughMirrors) {
     Document document;
     document.material()["pbrMetallicRoughness"] = {{"baseColorFactor", {0.9, 0.8, 0.7, 1}},
                                                    {"roughnessFactor", 0.4}};
     const Scene scene = import(document);
-    test::expectNear(scene.material(0).diffuse, {0.9f, 0.8f, 0.7f});
-    EXPECT_FALSE(scene.material(0).isMirror());
-    EXPECT_EQ(warningsWith("materials[0] 'paint': glossy reflection is treated as diffuse"), 1);
+    test::expectNear(scene.material(0).mirror, {0.9f, 0.8f, 0.7f});
+    test::expectNear(scene.material(0).diffuse, Vec3(0));
+    EXPECT_FLOAT_EQ(scene.material(0).roughness, 0.16f);
+    EXPECT_TRUE(report_.warnings.empty());
 }
 
 TEST_F(ImportGltf, MultipliesEmissionByItsStrengthOnBothSidesIfDoubleSided) {

@@ -50,26 +50,18 @@ TEST_F(ImportMtl, HasNoHighlightInTheLambertianModels) {
     EXPECT_TRUE(report_.warnings.empty());
 }
 
-TEST_F(ImportMtl, FoldsGlossyReflectionIntoTheDiffuseOneWithAWarning) {
-    for (const char* rest : {"Ns 100\n", "Ns 1000\nPr 0.3\n", "Ns 0\n"}) {
+TEST_F(ImportMtl, MakesGlossyReflectionARoughMirror) {
+    const std::pair<const char*, float> rough[] = {
+        {"Ns 98\n", std::sqrt(0.02f)}, {"Ns 1000\nPr 0.3\n", 0.09f}, {"Ns 0\n", 1}};
+    for (const auto& [rest, width] : rough) {
         report_ = {};
         const Material m =
             importMaterial(std::string("Kd 0.5 0.5 0.5\nKs 0.1 0.2 0.3\nillum 2\n") + rest);
-        test::expectNear(m.diffuse, {0.6f, 0.7f, 0.8f});
-        EXPECT_FALSE(m.isMirror());
-        EXPECT_EQ(
-            warningsWith("m.mtl:1: material 'paint': glossy reflection is treated as diffuse"), 1);
+        test::expectNear(m.diffuse, Vec3(0.5f));
+        test::expectNear(m.mirror, {0.1f, 0.2f, 0.3f});
+        EXPECT_FLOAT_EQ(m.roughness, width);
+        EXPECT_TRUE(report_.warnings.empty());
     }
-}
-
-TEST_F(ImportMtl, KeepsTheMeanReflectanceWhereGlossMeetsATexture) {
-    const float grey = 0.5f;
-    writePng(path("t.png"), Image(4, 4, Vec3(grey)));
-    importMaterial("Kd 0.5 0.5 0.5\nKs 0.1 0.1 0.1\nNs 50\nillum 2\nmap_Kd t.png\n");
-    const Material* paint = test::findMaterial(scene_, "paint");
-    const Vec3 mean = diffuseReflectance(scene_, *paint, Vec2(0));
-    test::expectNear(mean, Vec3(0.25f + 0.1f), 0.01f);
-    EXPECT_LE(paint->diffuse.x, 1);
 }
 
 TEST_F(ImportMtl, ScalesReflectancesThatSumToMoreThanOne) {

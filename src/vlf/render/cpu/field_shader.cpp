@@ -68,18 +68,25 @@ FieldShader::FieldShader(const Scene& scene, const RayScene& rays, const LightFi
                objects_ ? hardShadowCasters(*objects_) : std::vector<HardShadows::Caster>{}) {
     if (field.triangleCharts.size() != scene.triangles.size())
         throw InputError("the light field belongs to another scene: bake this one");
-    if (mirrors == MirrorMethod::traced) return;
-    if (hasMirror(scene)) {
+    if (hasMirror(scene, MirrorKind::rough)) {
+        if (field.gloss.empty())
+            throw InputError(
+                "the light field holds no radiance of rough mirrors: bake with gloss directions");
+        gloss_.emplace(field.frame, field.gloss, MirrorKind::rough);
+    }
+    if (objects_ && (gloss_ || looksUp())) {
+        changed_.emplace(scene, field);
+        changed_->update(objects_->irradiance(), objects_->roomIrradiance());
+    }
+    if (!looksUp()) return;
+    if (hasMirror(scene, MirrorKind::perfect)) {
         if (field.radiance.empty())
             throw InputError(
                 "the light field holds no radiance of mirrors to look up: bake with "
                 "radiance directions, or trace reflections (mode raytraced)");
-        lookedUp_.emplace(field);
+        lookedUp_.emplace(field.frame, field.radiance);
     }
-    if (!objects_) return;
-    changed_.emplace(scene, field);
-    changed_->update(objects_->irradiance(), objects_->roomIrradiance());
-    fillProbes();
+    if (objects_) fillProbes();
 }
 
 void FieldShader::fillProbes() {
@@ -148,6 +155,10 @@ std::optional<FieldShader::RoomPoint> FieldShader::roomPoint(const Ray& ray, con
     seen.remaining = shadows_.remaining(surface);
     seen.own *= seen.remaining;
     if (chart.planar) surface.normal = surface.geometricNormal;
+    if (gloss_ && !surface.isPerfectMirror()) {
+        seen.own += seen.remaining * lookUpGloss(seen, ray);
+        surface.mirror = Vec3(0);
+    }
     return seen;
 }
 
@@ -200,6 +211,19 @@ Vec3 FieldShader::lookUpMirror(const RoomPoint& point, const Ray& ray) const {
     const float behind = sight.distance > 0 ? sight.distance + changed_->tolerance() : kInfinity;
     if (const InstanceHit hit = closestObject(reflected, behind))
         return surface.mirror * lookUpObject(reflected, hit, 1);
+    return inChangedLight(sight, reflected);
+}
+
+/// What a rough mirror of the room shows; objects but for the light that they take are not in it.
+Vec3 FieldShader::lookUpGloss(const RoomPoint& point, const Ray& ray) const {
+    const Surface& surface = point.surface;
+    const SeenInMirror sight = gloss_->see(
+        {point.chart, surface.position, surface.geometricNormal}, -ray.direction, lookup_);
+    return objects_ ? inChangedLight(sight, point.reflect(ray.direction, rays_.epsilon()))
+                    : sight.radiance;
+}
+
+Vec3 FieldShader::inChangedLight(const SeenInMirror& sight, const Ray& reflected) const {
     if (sight.distance <= 0) return sight.radiance;
     return sight.radiance * changed_->factor(reflected.origin, reflected.direction, sight.distance,
                                              objects_->irradiance(), objects_->roomIrradiance());

@@ -35,7 +35,8 @@ class FieldShader {
     static constexpr int kProbeSize = 128;  ///< texels along a face of a mirror object's probe
 
     /// `objects`: up to date, of this room; null: none. Throws InputError if the field is not of
-    /// this scene, or if mirrors are to be looked up in a field that holds no radiance of them.
+    /// this scene, or if mirrors are to be looked up in a field that holds no radiance of them; what
+    /// rough mirrors show is always looked up.
     FieldShader(const Scene& scene, const RayScene& rays, const LightField& field,
                 MirrorMethod mirrors = MirrorMethod::traced,
                 LookupKind lookup = LookupKind::depthCorrected,
@@ -59,6 +60,8 @@ class FieldShader {
 
     Vec3 lookUpRoom(const Ray& ray, const Hit& hit) const;
     Vec3 lookUpMirror(const RoomPoint& point, const Ray& ray) const;
+    Vec3 lookUpGloss(const RoomPoint& point, const Ray& ray) const;
+    Vec3 inChangedLight(const SeenInMirror& sight, const Ray& reflected) const;
     Vec3 lookUpObject(const Ray& ray, const InstanceHit& hit, int reflections) const;
     InstanceHit closestObject(const Ray& ray, float before) const;
 
@@ -74,7 +77,8 @@ class FieldShader {
     const DynamicRoom* objects_;
     HardShadows shadows_;
     std::optional<MirrorLookup> lookedUp_;  ///< set where mirrors are looked up
-    std::optional<ChangedCharts> changed_;  ///< and there are objects
+    std::optional<MirrorLookup> gloss_;     ///< set where there are rough mirrors
+    std::optional<ChangedCharts> changed_;  ///< set where there are objects and one of these
     std::vector<ReflectionProbe> probes_;   ///< of each lit object; empty where it is no mirror
 };
 

@@ -1,15 +1,10 @@
 #include "vlf/render/cpu/path_integrator.h"
 
-#include "vlf/math/frame.h"
-#include "vlf/math/sampling.h"
-
 #include <algorithm>
 
 namespace vlf {
 
 namespace {
-
-constexpr float kCertain = std::numeric_limits<float>::infinity();
 
 /// Paths of this many segments and more are continued by chance.
 constexpr int kRouletteDepth = 4;
@@ -17,29 +12,11 @@ constexpr int kRouletteDepth = 4;
 /// Keeps paths between perfect mirrors finite.
 constexpr float kMaxSurvival = 0.97f;
 
-/// At most half of the cosine lobe lies below the surface: a longer row of rejections never occurs.
-constexpr int kMaxRejections = 128;
-
 /// Weight of a sample drawn with density p where another technique has density q (power
 /// heuristic, exponent 2). p may be infinite: a direction that only this technique can draw.
 float powerHeuristic(float p, float q) {
     const float ratio = q / p;
     return 1 / (1 + ratio * ratio);
-}
-
-/// Chance with which a path is continued by the diffuse lobe rather than the mirror.
-float diffuseChance(const Surface& surface) {
-    const float diffuse = maxComponent(surface.diffuse), mirror = maxComponent(surface.mirror);
-    return diffuse > 0 ? diffuse / (diffuse + mirror) : 0;
-}
-
-Vec3 sampleCosineLobe(const Surface& surface, RandomStream& random) {
-    const Frame frame = frameFromNormal(surface.normal);
-    for (int i = 0; i < kMaxRejections; ++i) {
-        const Vec3 direction = frame.toWorld(sampleCosineHemisphere(random.next2()));
-        if (cosineLobe(surface, direction) > 0) return glm::normalize(direction);
-    }
-    return surface.geometricNormal;
 }
 
 /// Ends paths by chance in proportion to what they can still carry.
@@ -55,7 +32,7 @@ bool survivesRoulette(Vec3& throughput, RandomStream& random) {
 struct PathIntegrator::Path {
     Ray ray;
     Vec3 throughput{1};
-    float density = kCertain;  ///< with which the diffuse lobe drew ray.direction, per steradian
+    float density = kCertain;  ///< with which a lobe drew ray.direction, per steradian
     int depth = 1;             ///< segments, that of `ray` included
     Hit hit{};                 ///< of `ray`
 };
@@ -77,15 +54,16 @@ std::optional<Vec3> PathIntegrator::irradiance(const SidePoint& point, const Sid
     Surface white = surfaceAt(scene_, point);
     white.diffuse = Vec3(1);
     white.mirror = Vec3(0);
+    const Scattering scattering(white, white.normal);
     Path path;
-    scatter(white, 1, path, random);
+    if (!scatter(white, scattering, path, random)) return Vec3(0);
     path.depth = 1;
     path.hit = rays_.closest(path.ray);
     if (path.hit) {
         const SidePoint seen = pointFacing(scene_, path.hit, path.ray.direction);
         if (!isOpen(seen.triangle, seen.front)) return std::nullopt;
     }
-    const Vec3 direct = directLight(white, 1, random);
+    const Vec3 direct = directLight(white, scattering, random);
     return kPi * (direct + followPath(path, random));
 }
 
@@ -96,10 +74,10 @@ Vec3 PathIntegrator::followPath(Path path, RandomStream& random) const {
         radiance += path.throughput * emitterSeen(path, point);
         if (path.depth == options_.maxDepth) break;
         const Surface surface = surfaceAt(scene_, point);
-        if (maxComponent(surface.diffuse + surface.mirror) <= 0) break;
-        const float chance = diffuseChance(surface);
-        radiance += path.throughput * directLight(surface, chance, random);
-        scatter(surface, chance, path, random);
+        if (!surface.reflects()) break;
+        const Scattering scattering(surface, -path.ray.direction);
+        radiance += path.throughput * directLight(surface, scattering, random);
+        if (!scatter(surface, scattering, path, random)) break;
         if (path.depth >= kRouletteDepth && !survivesRoulette(path.throughput, random)) break;
         path.hit = rays_.closest(path.ray);
     }
@@ -116,15 +94,17 @@ Vec3 PathIntegrator::emitterSeen(const Path& path, const SidePoint& point) const
     return emission * powerHeuristic(path.density, density);
 }
 
-Vec3 PathIntegrator::directLight(const Surface& surface, float chance, RandomStream& random) const {
-    if (!options_.sampleEmitters || chance <= 0) return Vec3(0);
+Vec3 PathIntegrator::directLight(const Surface& surface, const Scattering& scattering,
+                                 RandomStream& random) const {
+    if (!options_.sampleEmitters || !scattering.hasLobes()) return Vec3(0);
     SidePoint point = emitters_.sample(random);
     Surface emitter = surfaceAt(scene_, point);
     const Vec3 between = emitter.position - surface.position;
     const float distance2 = glm::dot(between, between);
     const Vec3 direction = between / std::sqrt(distance2);
-    const float lobe = cosineLobe(surface, direction);
-    if (!(distance2 > 0) || lobe <= 0) return Vec3(0);
+    if (!(distance2 > 0)) return Vec3(0);
+    const Vec3 lobes = scattering.lobes(direction);
+    if (maxComponent(lobes) <= 0) return Vec3(0);
     if (glm::dot(emitter.geometricNormal, direction) > 0) {
         point.front = false;
         emitter.geometricNormal = -emitter.geometricNormal;
@@ -133,22 +113,19 @@ Vec3 PathIntegrator::directLight(const Surface& surface, float chance, RandomStr
     if (emission == Vec3(0) || !visible(surface, emitter)) return Vec3(0);
     const float density = emitters_.density(point.triangle) * distance2 /
                           -glm::dot(emitter.geometricNormal, direction);
-    return surface.diffuse * emission * (lobe / density * powerHeuristic(density, chance * lobe));
+    return lobes * emission * (powerHeuristic(density, scattering.density(direction)) / density);
 }
 
-void PathIntegrator::scatter(const Surface& surface, float chance, Path& path,
+/// False where the path ends in the surface.
+bool PathIntegrator::scatter(const Surface& surface, const Scattering& scattering, Path& path,
                              RandomStream& random) const {
+    const auto sample = scattering.sample(random);
+    if (!sample) return false;
     ++path.depth;
-    if (chance >= 1 || random.next() < chance) {
-        const Vec3 direction = sampleCosineLobe(surface, random);
-        path.throughput *= surface.diffuse / chance;
-        path.density = chance * cosineLobe(surface, direction);
-        path.ray = rayFrom(surface, direction);
-    } else {
-        path.throughput *= surface.mirror / (1 - chance);
-        path.density = kCertain;
-        path.ray = rayFrom(surface, mirrorDirection(surface, path.ray.direction));
-    }
+    path.throughput *= sample->weight;
+    path.density = sample->density;
+    path.ray = rayFrom(surface, sample->direction);
+    return true;
 }
 
 Ray PathIntegrator::rayFrom(const Surface& surface, const Vec3& direction) const {

@@ -4,8 +4,9 @@
 // sampling techniques for Monte Carlo rendering", SIGGRAPH 1995.
 
 #include "vlf/math/random.h"
-#include "vlf/render/cpu/emitter_sampler.h"
+#include "vlf/render/cpu/scattering.h"
 #include "vlf/render/cpu/surface.h"
+#include "vlf/scene/emitter_sampler.h"
 
 #include <functional>
 #include <optional>
@@ -41,8 +42,9 @@ class PathIntegrator {
 
     Vec3 followPath(Path path, RandomStream& random) const;
     Vec3 emitterSeen(const Path& path, const SidePoint& point) const;
-    Vec3 directLight(const Surface& surface, float diffuseChance, RandomStream& random) const;
-    void scatter(const Surface& surface, float diffuseChance, Path& path,
+    Vec3 directLight(const Surface& surface, const Scattering& scattering,
+                     RandomStream& random) const;
+    bool scatter(const Surface& surface, const Scattering& scattering, Path& path,
                  RandomStream& random) const;
     Ray rayFrom(const Surface& surface, const Vec3& direction) const;
     bool visible(const Surface& surface, const Surface& emitter) const;

@@ -12,6 +12,7 @@ constexpr float kMinCosine = 1e-3f;
 constexpr float kFar = std::numeric_limits<float>::max();
 constexpr int kMaxSteps = 24;  // cells that a line of sight is followed over
 constexpr int kMaxLayers = 3;
+constexpr int kDepthSteps = 2;  // towards the mean depth of a rough mirror
 
 // Tuned on a room with a statue before a mirror, for the PSNR against traced reflections.
 constexpr float kTolerance = 5;        // cells: surfaces closer than this count as one
@@ -154,13 +155,14 @@ struct MirrorLookup::Layer {
     }
 };
 
-MirrorLookup::MirrorLookup(const LightField& field)
-    : radiance_(field.radiance),
-      directions_(field.radiance.lines),
-      tolerance_(kTolerance * 2 * field.frame.radius / static_cast<float>(field.radiance.cells)) {
+MirrorLookup::MirrorLookup(const FieldFrame& frame, const RadianceField& radiance, MirrorKind kind)
+    : radiance_(radiance),
+      kind_(kind),
+      directions_(radiance.lines),
+      tolerance_(kTolerance * 2 * frame.radius / static_cast<float>(radiance.cells)) {
     for (int i = 0; i < directions_.lineCount(); ++i)
         subfields_.push_back(makeSubfield(
-            field.frame, directions_.direction(static_cast<std::uint32_t>(i)), radiance_.cells));
+            frame, directions_.direction(static_cast<std::uint32_t>(i)), radiance_.cells));
 }
 
 MirrorLookup::View MirrorLookup::viewOf(std::uint32_t direction, float weight,
@@ -180,14 +182,16 @@ SeenInMirror MirrorLookup::see(const MirrorPoint& point, const Vec3& toEye, Look
     const DirectionTriple triple = directions_.triple(toEye);
     Views views;
     for (int k = 0; k < 3; ++k) views[k] = viewOf(triple.index[k], triple.weight[k], point, toEye);
-    return kind == LookupKind::plain ? plain(views) : depthCorrected(views);
+    if (kind == LookupKind::plain) return linear(views, 0);
+    return kind_ == MirrorKind::rough ? meanDepthCorrected(views) : depthCorrected(views);
 }
 
-SeenInMirror MirrorLookup::plain(const Views& views) const {
+/// Interpolated at s of the line of sight.
+SeenInMirror MirrorLookup::linear(const Views& views, float s) const {
     Vec3 sum(0);
     float weights = 0, distances = 0;
     for (const View& view : views)
-        forFourCells(view.at(0), [&](int x, int y, float w) {
+        forFourCells(view.at(s), [&](int x, int y, float w) {
             const RadianceElement* e = view.element(x, y);
             if (!e) return;
             sum += w * view.weight * unpackRgb9e5(e->rgb9e5());
@@ -195,6 +199,16 @@ SeenInMirror MirrorLookup::plain(const Views& views) const {
             weights += w * view.weight;
         });
     return weights > 0 ? SeenInMirror{sum / weights, distances / weights} : SeenInMirror{};
+}
+
+SeenInMirror MirrorLookup::meanDepthCorrected(const Views& views) const {
+    SeenInMirror seen = linear(views, 0);
+    for (int i = 0; i < kDepthSteps; ++i) {
+        const SeenInMirror next = linear(views, seen.distance);
+        if (next.distance <= 0) break;
+        seen = next;
+    }
+    return seen;
 }
 
 MirrorLookup::Layer MirrorLookup::layerAt(const Views& views, float s) const {
@@ -226,7 +240,7 @@ SeenInMirror MirrorLookup::depthCorrected(const Views& views) const {
     std::transform(views.begin(), views.end(), depths.begin(),
                    [&](const View& view) { return view.firstSurface(tolerance_); });
     std::sort(depths.begin(), depths.end());
-    if (depths[0] == kFar) return plain(views);
+    if (depths[0] == kFar) return linear(views, 0);
 
     CompressedMean layers;
     float left = 1;  // of the line of sight
@@ -243,7 +257,7 @@ SeenInMirror MirrorLookup::depthCorrected(const Views& views) const {
         if (last) break;
         s = next;
     }
-    return left < 1 ? SeenInMirror{layers.mean(), distance} : plain(views);
+    return left < 1 ? SeenInMirror{layers.mean(), distance} : linear(views, 0);
 }
 
 }  // namespace vlf

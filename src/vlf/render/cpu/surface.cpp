@@ -18,6 +18,7 @@ Surface surfaceAt(const Scene& scene, const SidePoint& point) {
     if (glm::dot(surface.normal, surface.geometricNormal) < 0) surface.normal = -surface.normal;
     surface.diffuse = diffuseReflectance(scene, material, uv);
     surface.mirror = mirrorReflectance(scene, material, uv);
+    surface.roughness = material.roughness;
     return surface;
 }
 

@@ -6,13 +6,6 @@
 
 namespace vlf {
 
-/// A place on one side of a triangle. `barycentric` are the weights of its second and third vertex.
-struct SidePoint {
-    std::uint32_t triangle = 0;
-    Vec2 barycentric{0};
-    bool front = true;  ///< the side of the winding normal
-};
-
 /// A surface point with its geometry and reflection. Both normals are unit and lie on the side of
 /// the point (n·g >= 0).
 struct Surface {
@@ -22,6 +15,10 @@ struct Surface {
     Vec3 geometricNormal{0};  ///< of the triangle's plane
     Vec3 diffuse{0};          ///< Lambertian reflectance
     Vec3 mirror{0};           ///< specular reflectance
+    float roughness = 0;      ///< of that; 0: a perfect mirror
+
+    bool reflects() const { return maxComponent(diffuse + mirror) > 0; }
+    bool isPerfectMirror() const { return roughness <= 0; }
 };
 
 /// The side of a hit triangle that faces against `direction`.

@@ -19,12 +19,13 @@ std::uint64_t textureBytes(const Scene& scene) {
 GpuMemory gpuMemoryOf(const Scene& scene, const LightField& field) {
     const RoomGeometry room = makeRoomGeometry(scene, field);
     const RadianceLayout layout = layOutRadiance(field.radiance, room.mirrorCharts);
+    const RadianceLayout gloss = layOutRadiance(field.gloss, room.roughCharts);
     GpuMemory memory;
     memory.geometry = bytesOf(room);
     memory.atlas = 4 * field.atlas.irradiance.size();
-    memory.radiance = layout.bytes();
+    memory.radiance = layout.bytes() + gloss.bytes();
     memory.textures = textureBytes(scene);
-    memory.radianceElements = layout.elements;
+    memory.radianceElements = layout.elements + gloss.elements;
     return memory;
 }
 

@@ -32,6 +32,8 @@ class ObjectStage {
     }
 
     bool empty() const { return objects_.empty(); }
+    /// Whether it knows what objects change of the light that is looked up.
+    bool changesLookedUp() const { return change_.has_value(); }
     HitBuffers& hits() { return hits_; }
     const HitBuffers& hits() const { return hits_; }
     const ObjectPass& objects() const { return objects_; }

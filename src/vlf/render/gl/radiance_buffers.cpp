@@ -26,9 +26,9 @@ void requireRecords(std::uint64_t records) {
 
 }  // namespace
 
-RadianceBuffers::RadianceBuffers(const LightField& field, const std::vector<std::uint32_t>& charts,
+RadianceBuffers::RadianceBuffers(const FieldFrame& frame, const RadianceField& r,
+                                 const std::vector<std::uint32_t>& charts,
                                  const RadianceLimits& limits, std::uint64_t bufferTexels) {
-    const RadianceField& r = field.radiance;
     const RadianceLayout layout = layOutWithin(limits, r, charts);
     const PackedRadiance packed = packRadiance(r, charts, layout);
     requireRecords(layout.records.size());
@@ -40,25 +40,21 @@ RadianceBuffers::RadianceBuffers(const LightField& field, const std::vector<std:
     coarseness_ = static_cast<std::uint32_t>(layout.coarseness);
     bytes_ = layout.bytes();
     elementCount_ = layout.elements;
-    const float diameter = 2 * field.frame.radius;
+    const float diameter = 2 * frame.radius;
     const float cells = static_cast<float>(r.cells - 1) / static_cast<float>(layout.coarseness);
-    data_.fieldFrame = Vec4(field.frame.centre, cells / diameter);
-    data_.field = {std::sqrt(0.5f * static_cast<float>(std::max(r.lines, 1) - 1)), r.lines,
-                   0.5f * cells, kTolerance * diameter / std::max(cells, 1.0f)};
-    data_.elementCode = {packed.longestDistance, packed.logSum.first, packed.logSum.step, 0};
-    data_.shareCode = {packed.red.first, packed.red.step, packed.blue.first, packed.blue.step};
+    const shared::RadianceData data{
+        Vec4(frame.centre, cells / diameter),
+        {std::sqrt(0.5f * static_cast<float>(std::max(r.lines, 1) - 1)), r.lines, 0.5f * cells,
+         kTolerance * diameter / std::max(cells, 1.0f)},
+        {packed.longestDistance, packed.logSum.first, packed.logSum.step, 0},
+        {packed.red.first, packed.red.step, packed.blue.first, packed.blue.step}};
+    description_ = makeBuffer(&data, sizeof data);
 }
 
 void RadianceBuffers::bind() const {
     glBindTextureUnit(shared::kElementUnit, elementTexture_.id());
     glBindTextureUnit(shared::kRecordUnit, recordTexture_.id());
-}
-
-void RadianceBuffers::describe(shared::ViewData& data) const {
-    data.fieldFrame = data_.fieldFrame;
-    data.field = data_.field;
-    data.elementCode = data_.elementCode;
-    data.shareCode = data_.shareCode;
+    glBindBufferBase(GL_UNIFORM_BUFFER, shared::kRadianceBlock, description_.id());
 }
 
 }  // namespace vlf::gl

@@ -1,5 +1,5 @@
 #pragma once
-// The radiance field in the memory of the GPU.
+// A radiance field in the memory of the GPU.
 
 #include "vlf/field/light_field.h"
 #include "vlf/render/gl/gl_object.h"
@@ -13,16 +13,15 @@ namespace vlf::gl {
 
 class RadianceBuffers {
   public:
-    /// Of these mirror charts, as finely as `limits` and `bufferTexels`, texels of a buffer
-    /// texture, allow. Throws InputError if its coarsest is too much.
-    RadianceBuffers(const LightField& field, const std::vector<std::uint32_t>& charts,
-                    const RadianceLimits& limits, std::uint64_t bufferTexels);
+    /// `radiance`, of a field in this frame, of these mirror charts, as finely as `limits` and
+    /// `bufferTexels`, texels of a buffer texture, allow. Throws InputError if its coarsest is too
+    /// much.
+    RadianceBuffers(const FieldFrame& frame, const RadianceField& radiance,
+                    const std::vector<std::uint32_t>& charts, const RadianceLimits& limits,
+                    std::uint64_t bufferTexels);
 
-    /// Binds both to their units (shaders/shared.h).
+    /// Binds them to their units and block (shaders/shared.h).
     void bind() const;
-
-    /// What shaders are told of it.
-    void describe(shared::ViewData& data) const;
 
     bool fourATexel() const { return fourATexel_; }
     std::uint32_t coarseness() const { return coarseness_; }
@@ -30,9 +29,8 @@ class RadianceBuffers {
     std::uint64_t elements() const { return elementCount_; }
 
   private:
-    Buffer elements_, records_;
+    Buffer elements_, records_, description_;
     TextureObject elementTexture_, recordTexture_;
-    shared::ViewData data_{};
     bool fourATexel_ = false;
     std::uint32_t coarseness_ = 1;
     std::uint64_t bytes_ = 0, elementCount_ = 0;

@@ -73,8 +73,14 @@ struct Renderer::Impl {
           shaders(options.shaderFolder),
           textures(scene),
           atlas(requireSameScene(scene, field), textureSide(options)),
-          canLookUp(!hasMirror(scene) || !field.radiance.empty()),
-          objects(scene, field, shaders, hasMirror(scene) && canLookUp && atlas.fit().unchanged()) {
+          canLookUp(!hasMirror(scene, MirrorKind::perfect) || !field.radiance.empty()),
+          objects(scene, field, shaders,
+                  (hasMirror(scene, MirrorKind::rough) ||
+                   (hasMirror(scene, MirrorKind::perfect) && canLookUp)) &&
+                      atlas.fit().unchanged()) {
+        if (hasMirror(scene, MirrorKind::rough) && field.gloss.empty())
+            throw InputError(
+                "the light field holds no radiance of rough mirrors: bake with gloss directions");
         const RoomGeometry room = makeRoomGeometry(scene, atlas.fit().layout());
         loadGeometry(room);
         if (const std::uint32_t k = atlas.fit().factor(); k > 1)
@@ -87,7 +93,8 @@ struct Renderer::Impl {
         nearest = kNearest * field.frame.radius;
         rayStart = rayEpsilon(scene);
         memory.textures = textureBytes(scene);
-        loadRadiance(room.mirrorCharts, options);
+        loadRadiance(radiance, lightField.radiance, room.mirrorCharts, options);
+        loadRadiance(gloss, lightField.gloss, room.roughCharts, options);
         makePrograms();
     }
 
@@ -107,17 +114,17 @@ struct Renderer::Impl {
         memory.geometry = bytesOf(room);
     }
 
-    void loadRadiance(const std::vector<std::uint32_t>& charts, const RendererOptions& options) {
-        radiance.emplace(lightField, charts, radianceLimits(options, memory.total()),
-                         bufferTexels(options));
-        const std::string k = std::to_string(radiance->coarseness());
-        if (radiance->coarseness() > 1)
+    void loadRadiance(std::optional<RadianceBuffers>& buffers, const RadianceField& stored,
+                      const std::vector<std::uint32_t>& charts, const RendererOptions& options) {
+        buffers.emplace(lightField.frame, stored, charts, radianceLimits(options, memory.total()),
+                        bufferTexels(options));
+        const std::string k = std::to_string(buffers->coarseness());
+        if (buffers->coarseness() > 1)
             notices.push_back("mirrors are shown with cells of " + k + " x " + k +
                               " made one: all of the radiance field is too much for the GPU's "
                               "memory");
-        radiance->describe(viewData);
-        memory.radiance = radiance->bytes();
-        memory.radianceElements = radiance->elements();
+        memory.radiance += buffers->bytes();
+        memory.radianceElements += buffers->elements();
     }
 
     /// Those of mode field, so that no frame waits for them.
@@ -134,17 +141,21 @@ struct Renderer::Impl {
     /// `probed`: in a reflection probe.
     Defines definesOf(const RoomBatch& batch, const RenderSettings& settings,
                       bool withObjects = false, bool probed = false) const {
-        const bool traced = settings.mode == DisplayMode::raytraced;
+        const bool traced = batch.mirror && settings.mode == DisplayMode::raytraced;
+        const bool lookedUp = batch.rough || (batch.mirror && !traced);
         Defines d;
         if (scene.materials[batch.material].diffuseTexture >= 0) d.emplace("DIFFUSE_MAP", "1");
         if (maxComponent(Vec3(batch.data.emission)) > 0) d.emplace("EMISSION", "1");
-        if (batch.mirror)
-            d.emplace("MIRROR", traced ? "\"traced_reflection.glsl\"" : "\"radiance_field.glsl\"");
-        if (batch.mirror && !traced && settings.lookup == LookupKind::plain)
+        if (traced) d.emplace("MIRROR", "\"traced_reflection.glsl\"");
+        if (lookedUp) d.emplace("MIRROR", "\"radiance_field.glsl\"");
+        if (lookedUp && settings.lookup == LookupKind::plain)
             d.emplace("PLAIN", "1");
-        if (batch.mirror && !traced && radiance && radiance->fourATexel())
+        else if (batch.rough)
+            d.emplace("ROUGH", "1");
+        if (lookedUp && (batch.rough ? gloss : radiance)->fourATexel())
             d.emplace("FOUR_A_TEXEL", "1");
         if (withObjects) objects.addDefines(d, batch.mirror, traced, probed);
+        if (withObjects && batch.rough && objects.changesLookedUp()) d.emplace("CHANGED", "1");
         return d;
     }
 
@@ -329,7 +340,6 @@ struct Renderer::Impl {
         glBindBufferBase(GL_UNIFORM_BUFFER, kViewBlock, viewBuffer.id());
         for (int unit = 0; unit < kUnits; ++unit) glBindSampler(static_cast<GLuint>(unit), 0);
         glBindTextureUnit(kIrradianceUnit, atlas.id());
-        radiance->bind();
         objects.hits().bind();
     }
 
@@ -342,6 +352,7 @@ struct Renderer::Impl {
         textures.bind(kEmissionUnit, material.emissionTexture);
         textures.bind(kMirrorMapUnit, material.mirrorTexture);
         glBindBufferBase(GL_UNIFORM_BUFFER, kMaterialBlock, materialBuffers[i].id());
+        if (batch.mirror || batch.rough) (batch.rough ? gloss : radiance)->bind();
         glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(batch.indexCount), GL_UNSIGNED_INT,
                        reinterpret_cast<const void*>(4 * std::size_t{batch.firstIndex}));
     }
@@ -358,7 +369,7 @@ struct Renderer::Impl {
     VertexArray vertexArray;
     IrradianceTexture atlas;
     bool canLookUp;
-    std::optional<RadianceBuffers> radiance;
+    std::optional<RadianceBuffers> radiance, gloss;  ///< of perfect and rough mirrors
     std::vector<std::uint32_t> mirrorTriangles;
     ObjectStage objects;
     std::optional<std::uint64_t> roomVersion;  ///< of the DynamicRoom that is shown

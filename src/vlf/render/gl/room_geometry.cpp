@@ -12,11 +12,13 @@ namespace {
 class GeometryMaker {
   public:
     GeometryMaker(const Scene& scene, const LightField& field) : scene_(scene), field_(field) {
-        for (std::uint32_t c = 0; c < field.charts.size(); ++c)
-            if (scene.materials[field.charts[c].material].isMirror()) {
-                mirrorOf_.emplace(c, static_cast<std::uint32_t>(room_.mirrorCharts.size()));
-                room_.mirrorCharts.push_back(c);
-            }
+        for (std::uint32_t c = 0; c < field.charts.size(); ++c) {
+            const Material& material = scene.materials[field.charts[c].material];
+            if (!material.isMirror()) continue;
+            auto& charts = material.isGlossy() ? room_.roughCharts : room_.mirrorCharts;
+            mirrorOf_.emplace(c, static_cast<std::uint32_t>(charts.size()));
+            charts.push_back(c);
+        }
     }
 
     RoomGeometry make() {
@@ -29,13 +31,14 @@ class GeometryMaker {
         RoomBatch batch = batchOf(scene_, sides.front(), room_.indices.size());
         batch.data.flags.y = static_cast<float>(room_.mirrorTriangles.size());
         shared_.clear();
-        for (const Side& side : sides) addSide(side, batch.mirror);
+        for (const Side& side : sides) addSide(side, batch);
         batch.indexCount = static_cast<std::uint32_t>(room_.indices.size()) - batch.firstIndex;
         room_.batches.push_back(batch);
     }
 
-    void addSide(const Side& side, bool mirror) {
-        if (mirror) room_.mirrorTriangles.push_back(side.triangle);
+    void addSide(const Side& side, const RoomBatch& batch) {
+        const bool mirror = batch.mirror || batch.rough;
+        if (batch.mirror) room_.mirrorTriangles.push_back(side.triangle);
         for (int i = 0; i < 3; ++i) {
             const int corner = side.front ? i : 2 - i;
             const std::uint32_t vertex = scene_.triangles[side.triangle].vertex[corner];

@@ -18,7 +18,7 @@ struct RoomVertex {
     std::array<std::int16_t, 2> mirrorNormal{};     ///< about which the mirror reflects
     Vec2 uv{0};                                     ///< of textures, v downwards
     Vec2 atlasUv{0};                                ///< in [0, 1]²; as ObjectGeometry says
-    std::uint32_t mirror = 0;  ///< index into RoomGeometry::mirrorCharts; likewise
+    std::uint32_t mirror = 0;  ///< index into RoomGeometry::mirrorCharts or roughCharts; likewise
 };
 static_assert(sizeof(RoomVertex) == 40);
 
@@ -26,8 +26,9 @@ static_assert(sizeof(RoomVertex) == 40);
 struct RoomBatch {
     shared::MaterialData data;
     std::uint32_t material = 0;  ///< of the scene, for its textures
-    bool mirror = false;
-    bool cull = false;  ///< the other side is in another batch
+    bool mirror = false;         ///< a perfect one
+    bool rough = false;          ///< a rough one
+    bool cull = false;           ///< the other side is in another batch
     std::uint32_t firstIndex = 0, indexCount = 0;
 };
 
@@ -35,7 +36,7 @@ struct RoomGeometry {
     std::vector<RoomVertex> vertices;
     std::vector<std::uint32_t> indices;
     std::vector<RoomBatch> batches;  ///< those of mirrors last
-    std::vector<std::uint32_t> mirrorCharts;
+    std::vector<std::uint32_t> mirrorCharts, roughCharts;
     std::vector<std::uint32_t> mirrorTriangles;  ///< the scene's, in the order of mirrors' batches;
                                                  ///< data.flags.y: where a batch begins
 };

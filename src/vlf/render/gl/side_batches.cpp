@@ -39,7 +39,8 @@ RoomBatch batchOf(const Scene& scene, const Side& side, std::size_t firstIndex) 
     const Material& material = scene.material(side.triangle);
     RoomBatch batch;
     batch.material = scene.triangles[side.triangle].material;
-    batch.mirror = mirrors(scene, side);
+    batch.mirror = mirrors(scene, side) && !material.isGlossy();
+    batch.rough = mirrors(scene, side) && material.isGlossy();
     batch.cull = side.cull;
     const bool emits = side.front || material.emitsBothSides;
     const float lit = side.chart == kNoChart ? 0 : 1;

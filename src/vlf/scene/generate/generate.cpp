@@ -41,7 +41,10 @@ const std::vector<Entry>& entries() {
         {{"gallery", "a white gallery with pictures and a statue"}, true, makeGallery},
         {{"caustic", "a spotlight thrown on a wall by a mirror, and a mirror-sided box"},
          false,
-         [](int) { return makeCaustic(); }}};
+         [](int) { return makeCaustic(); }},
+        {{"gloss", "a room with metal panels of three roughnesses and a polished floor"},
+         false,
+         [](int) { return makeGloss(); }}};
     return kEntries;
 }
 

@@ -14,5 +14,6 @@ Scene makeOffice();
 Scene makeGrotto();
 Scene makeGallery(int statueTriangles);
 Scene makeCaustic();
+Scene makeGloss();
 
 }  // namespace vlf

@@ -55,6 +55,13 @@ MaterialId SceneBuilder::addMaterial(const std::string& name, const Vec3& diffus
     return static_cast<MaterialId>(scene_.materials.size()) - 1;
 }
 
+MaterialId SceneBuilder::addRoughMirror(const std::string& name, const Vec3& diffuse,
+                                        const Vec3& mirror, float roughness) {
+    const MaterialId id = addMaterial(name, diffuse, mirror);
+    scene_.materials[id].roughness = roughness;
+    return id;
+}
+
 MaterialId SceneBuilder::addMaterial(const std::string& name, Texture diffuse) {
     const MaterialId id = addMaterial(name, Vec3(1));
     scene_.materials[id].diffuseTexture = addTexture(std::move(diffuse));

@@ -42,6 +42,9 @@ class SceneBuilder {
   public:
     MaterialId addMaterial(const std::string& name, const Vec3& diffuse,
                            const Vec3& mirror = Vec3(0));
+    /// `roughness`: α of GGX.
+    MaterialId addRoughMirror(const std::string& name, const Vec3& diffuse, const Vec3& mirror,
+                              float roughness);
     /// A textured diffuse surface.
     MaterialId addMaterial(const std::string& name, Texture diffuse);
     /// A surface that emits `radiance` (W/m2/sr) on its front and reflects nothing.

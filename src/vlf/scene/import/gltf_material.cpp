@@ -16,9 +16,6 @@ namespace {
 /// A metal smoother than this is a mirror (perceptual roughness of glTF).
 constexpr double kMirrorRoughness = 0.05;
 
-/// A metallic part below this does not count as a glossy reflection worth a warning.
-constexpr double kMetallic = 0.05;
-
 Vec3 toVec3(const std::vector<double>& v, const Vec3& otherwise) {
     return v.size() < 3 ? otherwise : Vec3(v[0], v[1], v[2]);
 }
@@ -175,13 +172,12 @@ class MaterialBuilder {
         const auto metallic = static_cast<float>(surface.metallic);
         material.diffuse = surface.base;
         material.diffuseTexture = texture;
-        if (surface.roughness < kMirrorRoughness && metallic > 0) {
-            material.mirror = surface.base * metallic;
-            material.mirrorTexture = texture;
-            material.diffuse = surface.base * (1 - metallic);
-        } else if (metallic > kMetallic) {
-            warn(report_, where, "glossy reflection is treated as diffuse");
-        }
+        if (metallic <= 0) return;
+        material.mirror = surface.base * metallic;
+        material.mirrorTexture = texture;
+        material.diffuse = surface.base * (1 - metallic);
+        if (surface.roughness >= kMirrorRoughness)
+            material.roughness = widthOfRoughness(static_cast<float>(surface.roughness));
     }
 
     const tinygltf::Texture& checkedTexture(int index, const SourceLocation& where) const {

@@ -2,26 +2,26 @@
 
 #include "vlf/scene/import/warn.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace vlf {
+
+namespace {
+constexpr float kLeastWidth = 1e-3f;  // narrower lobes are mirrors
+}
 
 Texture toTexture(DecodedImage image, const std::string& name, Wrap wrapU, Wrap wrapV) {
     return {name,  image.width, image.height, std::move(image.srgb8), std::move(image.linear),
             wrapU, wrapV};
 }
 
-void addGlossyAsDiffuse(const Scene& scene, Material& material, const Vec3& reflectance,
-                        ImportReport& report, const SourceLocation& where) {
-    warn(report, where, "glossy reflection is treated as diffuse");
-    if (material.diffuseTexture < 0) {
-        material.diffuse += reflectance;
-        return;
-    }
-    const Vec3 mean = scene.textures[material.diffuseTexture].average();
-    for (int i = 0; i < 3; ++i) {
-        if (mean[i] <= 0) continue;
-        const float raised = material.diffuse[i] + reflectance[i] / mean[i];
-        material.diffuse[i] = std::max(material.diffuse[i], std::min(1.0f, raised));
-    }
+float widthOfExponent(float exponent) {
+    return std::sqrt(2 / (std::max(exponent, 0.0f) + 2));
+}
+
+float widthOfRoughness(float roughness) {
+    return std::clamp(roughness * roughness, kLeastWidth, 1.0f);
 }
 
 bool leaveOutTransparent(float opacity, ImportReport& report, const SourceLocation& where) {

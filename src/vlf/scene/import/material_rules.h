@@ -10,10 +10,11 @@ namespace vlf {
 /// The pixels of a decoded image as a texture.
 Texture toTexture(DecodedImage image, const std::string& name, Wrap wrapU, Wrap wrapV);
 
-/// A glossy lobe of albedo `reflectance` is added to the diffuse one, so that the mean reflected
-/// energy is kept as far as the diffuse texture allows; warns.
-void addGlossyAsDiffuse(const Scene& scene, Material& material, const Vec3& reflectance,
-                        ImportReport& report, const SourceLocation& where);
+/// Width of the GGX lobe (Material::roughness) that is like a Phong lobe of this exponent, and like
+/// a perceptual roughness (glTF, Pr of MTL). B. Walter et al., EGSR 2007; B. Burley, "Physically-based
+/// shading at Disney", 2012.
+float widthOfExponent(float exponent);
+float widthOfRoughness(float roughness);
 
 /// Surfaces are opaque: true (with a warning) if one of this opacity is better left out, because
 /// it lets more than half of the light through. Warns too if it is kept and opacity < 1.

@@ -95,7 +95,7 @@ class MaterialBuilder {
         material.diffuse =
             factorOf(m.diffuse, material.diffuseTexture, special ? Vec3(0) : kUnknownGrey);
         material.emission = factorOf(m.emission, material.emissionTexture, Vec3(0));
-        addSpecular(material, m, where);
+        addSpecular(material, m);
         result.index = addMaterial(std::move(material));
         return result;
     }
@@ -113,18 +113,14 @@ class MaterialBuilder {
         return static_cast<std::uint32_t>(scene_.materials.size() - 1);
     }
 
-    void addSpecular(Material& material, const MtlMaterial& m, const SourceLocation& where) {
+    void addSpecular(Material& material, const MtlMaterial& m) {
         const Specular kind = specularKind(m);
         if (kind == Specular::none) return;
-        const int texture = loadTexture(m, m.specularMap);
-        const Vec3 factor = factorOf(m.specular, texture, Vec3(0));
-        if (kind == Specular::mirror) {
-            material.mirror = factor;
-            material.mirrorTexture = texture;
-        } else {
-            const Vec3 mean = texture < 0 ? Vec3(1) : scene_.textures[texture].average();
-            addGlossyAsDiffuse(scene_, material, factor * mean, report_, where);
-        }
+        material.mirrorTexture = loadTexture(m, m.specularMap);
+        material.mirror = factorOf(m.specular, material.mirrorTexture, Vec3(0));
+        if (kind == Specular::glossy)
+            material.roughness = m.roughness ? widthOfRoughness(*m.roughness)
+                                             : widthOfExponent(m.exponent.value_or(0));
     }
 
     /// One transform serves all textures of a material: that of the first.

@@ -15,7 +15,7 @@ struct Direction {
 
 // The point of ring k at `position`, in the upper half.
 Direction directionOf(float ring, float position) {
-    float rings = view.field.x;
+    float rings = radianceField.field.x;
     float r = ring / rings;
     float horizontal = r * sqrt(2 - r * r);
     float phi = ring > 0 ? kQuarterTurn * position / ring : 0;
@@ -25,7 +25,7 @@ Direction directionOf(float ring, float position) {
     float p = position < perRing ? position : position - perRing;
     bool opposite = ring == rings && p >= 2 * rings;
     float index = ring > 0 ? 1 + 2 * ring * (ring - 1) + p : 0;
-    if (opposite) index += view.field.y - 2 * rings;
+    if (opposite) index += radianceField.field.y - 2 * rings;
     d.index = uint(index + 0.5);
     return d;
 }
@@ -39,7 +39,7 @@ struct Triple {
 // weight times corner. Edges are great circles on the sphere but not in the grid, so that d may lie
 // a little beyond an edge; the third weight is then 0.
 Triple tripleOf(vec3 d) {
-    float rings = view.field.x;
+    float rings = radianceField.field.x;
     float ring = min(rings * sqrt(dot(d.xz, d.xz) / (1 + d.y)), rings);
     float turns = quarterTurns(d.x, d.z);
     float octant = min(floor(turns), 3);

@@ -1,9 +1,10 @@
-// What a mirror shows, by lookup in the radiance field: the same few steps for every pixel of every
+// What a mirror, perfect or rough, shows, by lookup in its radiance field: the same few steps for every pixel of every
 // scene. field/radiance_field.h says what is stored, packed_radiance.h and
 // radiance_layout.h how.
 
 layout(binding = kElementUnit) uniform usamplerBuffer elements;
 layout(binding = kRecordUnit) uniform usamplerBuffer records;
+layout(std140, binding = kRadianceBlock) uniform RadianceBlock { RadianceData radianceField; };
 
 #include "direction_set.glsl"
 #if defined(OBJECTS) || defined(CHANGED)
@@ -66,14 +67,14 @@ float distanceOf(uint element) {
 // Of the sum of red, green and blue.
 float rootOf(uint element) {
     float code = float(bitfieldExtract(element, kDistanceBits, kSumBits));
-    return exp2(0.5 * (view.elementCode.y + view.elementCode.z * code));
+    return exp2(0.5 * (radianceField.elementCode.y + radianceField.elementCode.z * code));
 }
 
 // Of red and blue in that sum.
 vec2 sharesOf(uint element) {
     uvec2 code = uvec2(bitfieldExtract(element, kDistanceBits + kSumBits, kRedBits),
                        bitfieldExtract(element, kDistanceBits + kSumBits + kRedBits, kBlueBits));
-    return view.shareCode.xz + vec2(code) * view.shareCode.yw;
+    return radianceField.shareCode.xz + vec2(code) * radianceField.shareCode.yw;
 }
 
 vec3 radianceOf(float sum, vec2 shares) {
@@ -84,7 +85,7 @@ Sight sightOf(Direction d, float weight, float sense, vec3 toEye) {
     Sight s;
     float cosine = sense * dot(d.vector, geometricNormal);
     uint index = d.index;
-    uint lines = uint(view.field.y);
+    uint lines = uint(radianceField.field.y);
     if (sense < 0) index = index < lines ? index + lines : index - lines;
     s.record = texelFetch(records, int(mirror * 2u * lines + index));
     if (cosine < kMinCosine) s.record.z = 0u;
@@ -95,20 +96,26 @@ Sight sightOf(Direction d, float weight, float sense, vec3 toEye) {
     float a = -1 / (side + n.z), b = n.x * n.y * a;
     vec3 x = vec3(1 + side * n.x * n.x * a, side * b, -side * n.x);
     vec3 y = vec3(b, side + n.y * n.y * a, -n.y);
-    vec3 p = position - view.fieldFrame.xyz;
-    s.cell = view.fieldFrame.w * vec2(dot(x, p), dot(y, p)) + view.field.z;
-    s.drift = -view.fieldFrame.w * vec2(dot(x, toEye), dot(y, toEye));
-    s.metres = view.elementCode.x / float((1 << kDistanceBits) - 1) * cosine /
+    vec3 p = position - radianceField.frame.xyz;
+    s.cell = radianceField.frame.w * vec2(dot(x, p), dot(y, p)) + radianceField.field.z;
+    s.drift = -radianceField.frame.w * vec2(dot(x, toEye), dot(y, toEye));
+    s.metres = radianceField.elementCode.x / float((1 << kDistanceBits) - 1) * cosine /
                max(dot(toEye, geometricNormal), kMinCosine);
     s.weight = weight;
     return s;
 }
 
+#if defined(PLAIN) || defined(ROUGH)
 #ifdef PLAIN
-// Adds the depths, too, as often as radiances count.
-vec4 bilinear(Sight s, inout float depth) {
+const int kDepthSteps = 0;
+#else
+const int kDepthSteps = 2;  // towards the mean depth of what a rough mirror shows
+#endif
+
+// At a depth of the line of sight. Adds depths, too, as often as radiances count.
+vec4 bilinear(Sight s, float at, inout float depth) {
     vec4 weights;
-    uvec4 e = elementsAround(s.record, s.cell, weights);
+    uvec4 e = elementsAround(s.record, s.cell + at * s.drift, weights);
     vec4 sum = vec4(0);
     for (int i = 0; i < 4; ++i) {
         float root = rootOf(e[i]), w = e[i] != 0u ? s.weight * weights[i] : 0;
@@ -122,12 +129,19 @@ vec3 mirrorRadiance() {
     vec3 toEye = normalize(view.eye.xyz - position);
     float sense = toEye.y < 0 ? -1 : 1;
     Triple t = tripleOf(sense * toEye);
-    vec4 sum = vec4(0);
-    float depth = 0;
-    for (int k = 0; k < 3; ++k)
-        sum += bilinear(sightOf(t.corner[k], t.weight[k], sense, toEye), depth);
-    vec3 radiance = sum.w > 0 ? sum.rgb / sum.w : vec3(0);
-    float distance_ = sum.w > 0 ? depth / sum.w : kNone;
+    Sight sights[3];
+    for (int k = 0; k < 3; ++k) sights[k] = sightOf(t.corner[k], t.weight[k], sense, toEye);
+    vec3 radiance = vec3(0);
+    float distance_ = kNone;
+    for (int i = 0; i <= kDepthSteps; ++i) {
+        vec4 sum = vec4(0);
+        float depth = 0;
+        for (int k = 0; k < 3; ++k)
+            sum += bilinear(sights[k], distance_ == kNone ? 0 : distance_, depth);
+        if (sum.w == 0) break;
+        radiance = sum.rgb / sum.w;
+        distance_ = depth / sum.w;
+    }
 #ifdef OBJECTS
     radiance = withObjects(radiance, radiance, distance_, distance_, 1, toEye);
 #elif defined(CHANGED)
@@ -152,7 +166,7 @@ float firstSurface(Sight s) {
         float reached = stride * i;
         e = elementAt(s.record, s.cell + reached * s.drift);
         float depth = distanceOf(e) * s.metres;
-        bool past = seen != kNone && (e == 0u || depth < reached - stride - view.field.w);
+        bool past = seen != kNone && (e == 0u || depth < reached - stride - radianceField.field.w);
         if (!done && !past && e != 0u) seen = depth;
         done = done || past || seen < reached + stride;
     }
@@ -181,8 +195,8 @@ Layer layerAt(Sight sights[3], float depth) {
             uint e = around[i];
             float w = e != 0u ? s.weight * weights[i] : 0;
             float beyond = distanceOf(e) * s.metres - depth;
-            bool here = abs(beyond) <= view.field.w;
-            bool open = beyond > view.field.w;
+            bool here = abs(beyond) <= radianceField.field.w;
+            bool open = beyond > radianceField.field.w;
             float weight = here ? w : kStray * w;
             float root = rootOf(e);
             l.inverseRoot += weight / root;
@@ -223,7 +237,7 @@ vec3 mirrorRadiance() {
     }
     float nearest = min(depths.x, min(depths.y, depths.z));
     Layer front = layerAt(sights, nearest);
-    vec3 deeper = mix(vec3(kNone), depths, greaterThan(depths, vec3(nearest + view.field.w)));
+    vec3 deeper = mix(vec3(kNone), depths, greaterThan(depths, vec3(nearest + radianceField.field.w)));
     float behind = min(front.behind, min(deeper.x, min(deeper.y, deeper.z)));
     // At depth 0 all samples are stray: the plain lookup, for where there is no other.
     Layer back = layerAt(sights, behind != kNone ? behind : 0);

@@ -49,6 +49,7 @@ VLF_INT kViewBlock = 0;
 VLF_INT kMaterialBlock = 1;
 VLF_INT kObjectsBlock = 4;
 VLF_INT kShadowBlock = 5;
+VLF_INT kRadianceBlock = 6;
 
 // Uniforms of shaders of objects.
 VLF_INT kPlaceLocation = 0;    // from the object's space to the world's
@@ -98,11 +99,15 @@ struct ViewData {
     vec4 eye;         // world; w: how far rays start off surfaces, metres
     vec4 tone;        // factor, kind of output (kWrite...), bias of the level of detail of textures,
                       // factor after the tone curve
-    vec4 fieldFrame;  // centre, cells a metre
-    vec4 field;       // rings of the direction set, lines, cells (minus 1) / 2, tolerance (metres)
+    ivec4 trace;      // nodes of the room's hierarchy
+};
+
+// A radiance field.
+struct RadianceData {
+    vec4 frame;        // centre, cells a metre
+    vec4 field;        // rings of the direction set, lines, cells (minus 1) / 2, tolerance (metres)
     vec4 elementCode;  // metres of the longest distance, log2 of the sum at code 0, its step
     vec4 shareCode;    // share of red at code 0, its step, and the same of blue
-    ivec4 trace;       // nodes of the room's hierarchy
 };
 
 struct MaterialData {
@@ -143,7 +148,8 @@ struct ObjectsData {
 static_assert(4 * kGridTexels == kGridSide * kGridSide * kGridSide);
 static_assert(sizeof(ShadowData) == 64 + 2 * 16);
 static_assert(sizeof(ObjectsData) == 5 * 16 + kMostReceivers * 5 * 16);
-static_assert(sizeof(ViewData) == 64 + 7 * 16);
+static_assert(sizeof(ViewData) == 64 + 3 * 16);
+static_assert(sizeof(RadianceData) == 4 * 16);
 static_assert(sizeof(MaterialData) == 4 * 16);
 }  // namespace vlf::shared
 #endif

@@ -2,7 +2,7 @@
 // Choosing points on the scene's emitters.
 
 #include "vlf/math/random.h"
-#include "vlf/render/cpu/surface.h"
+#include "vlf/scene/scene.h"
 
 #include <vector>
 

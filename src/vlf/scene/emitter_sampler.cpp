@@ -1,4 +1,4 @@
-#include "vlf/render/cpu/emitter_sampler.h"
+#include "vlf/scene/emitter_sampler.h"
 
 #include "vlf/math/sampling.h"
 

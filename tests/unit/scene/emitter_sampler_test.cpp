@@ -1,4 +1,5 @@
-#include "vlf/render/cpu/emitter_sampler.h"
+#include "vlf/scene/emitter_sampler.h"
+
 #include "support/analytic_scenes.h"
 
 #include <gtest/gtest.h>
