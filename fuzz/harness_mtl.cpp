@@ -1,0 +1,6 @@
+#include "fuzz/readers.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    vlf::fuzz::readMtl({data, size});
+    return 0;
+}
