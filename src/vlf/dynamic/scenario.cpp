@@ -83,13 +83,4 @@ std::vector<DynamicObject> objectsAt(const Scenario& scenario, double seconds) {
     return objects;
 }
 
-void moveTo(DynamicRoom& room, const Scenario& scenario, double seconds) {
-    for (std::size_t i = 0; i < scenario.objects.size(); ++i) {
-        const ScenarioObject& moving = scenario.objects[i];
-        if (!moves(moving.motion)) continue;
-        room.setPose(i, poseAt(moving.motion, moving.object.pose, seconds));
-        room.setVisible(i, visibleAt(moving.motion, moving.object.visible, seconds));
-    }
-}
-
 }  // namespace vlf
