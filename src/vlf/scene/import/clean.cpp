@@ -1,10 +1,12 @@
 #include "vlf/scene/import/import.h"
+#include "vlf/scene/import/material_rules.h"
 #include "vlf/scene/import/warn.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <bit>
+#include <functional>
 #include <limits>
 #include <unordered_map>
 
@@ -211,6 +213,10 @@ void repairMaterial(const Scene& scene, Material& m, ImportReport& report) {
     changed |= makeNonNegative(m.mirror);
     changed |= makeNonNegative(m.emission);
     if (changed) warn(report, where, "negative or infinite values are replaced by 0");
+    if (maxComponent(m.emission) > kMostRadiance) {
+        m.emission = glm::min(m.emission, Vec3(kMostRadiance));
+        warn(report, where, fmt::format("emits more than {:g} W·m⁻²·sr⁻¹; limited", kMostRadiance));
+    }
     const Vec3 sum = m.diffuse * textureMaximum(scene, m.diffuseTexture) +
                      m.mirror * textureMaximum(scene, m.mirrorTexture);
     const float most = maxComponent(sum);
@@ -224,6 +230,13 @@ void repairMaterial(const Scene& scene, Material& m, ImportReport& report) {
                          most));
 }
 
+void repairUvs(Scene& scene, ImportReport& report) {
+    const auto isFiniteUv = [](const Vec2& uv) { return isFinite(Vec3(uv, 0)); };
+    if (std::all_of(scene.uvs.begin(), scene.uvs.end(), isFiniteUv)) return;
+    std::replace_if(scene.uvs.begin(), scene.uvs.end(), std::not_fn(isFiniteUv), Vec2(0));
+    warn(report, {"texture coordinates", 0, ""}, "those that are not finite are replaced by 0");
+}
+
 }  // namespace
 
 void cleanScene(Scene& scene, ImportReport& report) {
@@ -234,6 +247,7 @@ void cleanScene(Scene& scene, ImportReport& report) {
     dropDuplicates(scene, report);
     compactTriangles(scene);
     dropUnusedVertices(scene);
+    repairUvs(scene, report);
     repairNormals(scene);
 }
 

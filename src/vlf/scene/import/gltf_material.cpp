@@ -225,8 +225,9 @@ class MaterialBuilder {
         int result = -1;
         if (auto image = decode(texture, where)) {
             result = static_cast<int>(scene_.textures.size());
-            scene_.textures.push_back(toTexture(
-                std::move(*image), file_.model.images[texture.source].name, wrapU, wrapV));
+            scene_.textures.push_back(toTexture(std::move(*image),
+                                                file_.model.images[texture.source].name, wrapU,
+                                                wrapV, report_, where));
         }
         return textures_[key] = result;
     }

@@ -30,7 +30,8 @@ Scene importObj(const std::string& path, ImportReport& report);
 Scene importGltf(const std::string& path, ImportReport& report);
 
 /// Drops degenerate and repeated triangles, computes missing (zero) normals, scales reflectances
-/// that sum to more than one, drops unused vertices. Called by importScene on the merged scene.
+/// that sum to more than one, limits emission, drops unused vertices, replaces texture coordinates
+/// that are not finite. Called by importScene on the merged scene.
 void cleanScene(Scene& scene, ImportReport& report);
 
 }  // namespace vlf

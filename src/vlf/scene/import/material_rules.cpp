@@ -11,7 +11,19 @@ namespace {
 constexpr float kLeastWidth = 1e-3f;  // narrower lobes are mirrors
 }
 
-Texture toTexture(DecodedImage image, const std::string& name, Wrap wrapU, Wrap wrapV) {
+Texture toTexture(DecodedImage image, const std::string& name, Wrap wrapU, Wrap wrapV,
+                  ImportReport& report, const SourceLocation& where) {
+    bool changed = false;
+    for (Vec3& pixel : image.linear)
+        for (int i = 0; i < 3; ++i) {
+            if (pixel[i] >= 0 && pixel[i] <= kMostRadiance) continue;
+            pixel[i] = pixel[i] > 0 ? kMostRadiance : 0;
+            changed = true;
+        }
+    if (changed)
+        warn(report, where,
+             "texture '" + name + "': values that are negative, infinite or not a number are "
+                                  "replaced");
     return {name,  image.width, image.height, std::move(image.srgb8), std::move(image.linear),
             wrapU, wrapV};
 }

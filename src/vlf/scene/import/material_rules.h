@@ -7,8 +7,13 @@
 
 namespace vlf {
 
-/// The pixels of a decoded image as a texture.
-Texture toTexture(DecodedImage image, const std::string& name, Wrap wrapU, Wrap wrapV);
+/// Most radiance that is emitted, W·m⁻²·sr⁻¹, and largest value of a texture: the sun has 2e7.
+inline constexpr float kMostRadiance = 1e9f;
+
+/// The pixels of a decoded image as a texture. Values that are negative or not a number become 0,
+/// those above kMostRadiance that; warns.
+Texture toTexture(DecodedImage image, const std::string& name, Wrap wrapU, Wrap wrapV,
+                  ImportReport& report, const SourceLocation& where);
 
 /// Width of the GGX lobe (Material::roughness) that is like a Phong lobe of this exponent, and like
 /// a perceptual roughness (glTF, Pr of MTL). B. Walter et al., EGSR 2007; B. Burley, "Physically-based

@@ -160,7 +160,8 @@ class MaterialBuilder {
         const Wrap wrap = clamp ? Wrap::clamp : Wrap::repeat;
         try {
             scene_.textures.push_back(
-                toTexture(readTextureImage(path), fs::path(path).filename().string(), wrap, wrap));
+                toTexture(readTextureImage(path), fs::path(path).filename().string(), wrap, wrap,
+                          report_, where));
         } catch (const Error& error) {
             warn(report_, where, fmt::format("{}; its factor alone is used", error.what()));
             return -1;
