@@ -4,10 +4,12 @@
 #include "vlf/base/file.h"
 #include "vlf/image/exr.h"
 #include "vlf/image/image_size.h"
+#include "vlf/image/jpeg_header.h"
 #include "vlf/image/radiance_hdr.h"
 #include "vlf/image/srgb.h"
 
 #include <algorithm>
+#include <array>
 #include <climits>
 #include <cmath>
 #include <memory>
@@ -37,15 +39,33 @@ bool isRefused(Bytes bytes) {
     return startsWith(bytes, kGif) || startsWith(bytes, kPsd) || startsWith(bytes, kPic);
 }
 
+constexpr std::uint8_t kPng[] = {0x89, 'P', 'N', 'G', 0x0d, 0x0a, 0x1a, 0x0a};
+
+/// Bits of a pixel by the header of a PNG: its depth times the channels of its colour type.
+int pngBitsPerPixel(Bytes png) {
+    constexpr std::size_t kDepth = 24, kColourType = 25;
+    constexpr std::array<int, 7> kChannels{1, 1, 3, 1, 2, 1, 4};
+    const std::uint8_t type = png[kColourType];
+    return std::max<int>(1, png[kDepth]) * (type < kChannels.size() ? kChannels[type] : 1);
+}
+
+/// Most pixels that a byte of a file may stand for. Deflate yields at most 1032 bytes per byte; a
+/// JPEG has a bit at least for a block of 8 x 8 pixels, of which components of different sampling
+/// share half; no other format comes near.
+double mostPixelsPerByte(Bytes bytes) {
+    return startsWith(bytes, kPng) ? 1032.0 * 8 / pngBitsPerPixel(bytes) : 1024;
+}
+
 /// Checks what the header says and returns the size through the image.
 template <class AnyImage>
 void readSize(Bytes bytes, const std::string& name, AnyImage& image) {
     int channels = 0;
     if (bytes.size() > INT_MAX) throw InputError(name + ": image files over 2 GB are not read");
+    if (isJpeg(bytes)) checkJpegHeader(bytes, name);
     if (isRefused(bytes) || !stbi_info_from_memory(bytes.data(), static_cast<int>(bytes.size()),
                                                    &image.width, &image.height, &channels))
         throw InputError(name + ": not an image that can be read (EXR, PNG, JPEG, HDR, TGA, BMP)");
-    requireImageSize(image.width, image.height, bytes.size(), name);
+    requireImageSize(image.width, image.height, bytes.size(), name, mostPixelsPerByte(bytes));
 }
 
 bool hasJpegEnd(Bytes bytes) {
@@ -71,9 +91,7 @@ bool hasAllPngChunks(Bytes bytes) {
 /// stb fills the rest of a JPEG that was cut off with grey, and takes memory for what the chunk of
 /// a PNG claims to hold.
 void requireWholeFile(Bytes bytes, const std::string& name) {
-    constexpr std::uint8_t kJpeg[] = {0xff, 0xd8},
-                           kPng[] = {0x89, 'P', 'N', 'G', 0x0d, 0x0a, 0x1a, 0x0a};
-    if ((startsWith(bytes, kJpeg) && !hasJpegEnd(bytes)) ||
+    if ((isJpeg(bytes) && !hasJpegEnd(bytes)) ||
         (startsWith(bytes, kPng) && !hasAllPngChunks(bytes)))
         throw InputError(name + ": damaged image: the file ends early");
 }

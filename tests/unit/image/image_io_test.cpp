@@ -6,6 +6,7 @@
 
 #include "temporary_folder.h"
 
+#include <algorithm>
 #include <cmath>
 #include <csignal>
 
@@ -31,6 +32,11 @@ Image allBytes() {
 Bytes pngBytes(const test::TemporaryFolder& folder) {
     writePng(folder.path("source.png"), allBytes());
     return readFile(folder.path("source.png"));
+}
+
+Bytes jpegBytes(const test::TemporaryFolder& folder) {
+    stbi_write_jpg(folder.path("a.jpg").c_str(), 64, 64, 3, Bytes(3 * 64 * 64, 9).data(), 90);
+    return readFile(folder.path("a.jpg"));
 }
 
 TEST(Png, RoundTripKeepsEveryEncodedValue) {
@@ -125,8 +131,7 @@ TEST(ImageFile, RejectsEveryTruncatedPng) {
 
 TEST(ImageFile, RejectsATruncatedJpeg) {
     const test::TemporaryFolder folder;
-    stbi_write_jpg(folder.path("a.jpg").c_str(), 64, 64, 3, Bytes(3 * 64 * 64, 9).data(), 90);
-    const Bytes jpeg = readFile(folder.path("a.jpg"));
+    const Bytes jpeg = jpegBytes(folder);
     for (std::size_t size = 0; size < jpeg.size(); size += 11)
         EXPECT_THROW(decodeImage({jpeg.data(), size}, "cut"), InputError) << size << " bytes";
 }
@@ -149,6 +154,54 @@ TEST(ImageFile, RejectsASizeThatTheFileCannotHold) {
     Bytes png = pngBytes(folder);
     png[17] = png[21] = 0x3f;  // width and height of millions
     EXPECT_THROW(decodeImage(png, "huge"), InputError);
+}
+
+/// The message of the InputError that decoding the bytes must throw.
+std::string errorOf(const Bytes& bytes) {
+    try {
+        decodeImage(bytes, "image");
+    } catch (const InputError& e) {
+        return e.what();
+    }
+    ADD_FAILURE() << "nothing was thrown";
+    return {};
+}
+
+Bytes::iterator markerOf(Bytes& jpeg, std::uint8_t code) {
+    const Bytes marker{0xff, code};
+    return std::search(jpeg.begin(), jpeg.end(), marker.begin(), marker.end());
+}
+
+TEST(ImageFile, KnowsHowManyPixelsAByteOfItsFormatMayStandFor) {
+    const test::TemporaryFolder folder;
+    Bytes png = pngBytes(folder), jpeg = jpegBytes(folder);
+    ASSERT_LT(png.size(), 1000u);
+    png[18] = png[22] = 4;  // 1040 x 1040: of one bit each, but not of three bytes
+    EXPECT_NE(errorOf(png).find("too short for 1040x1040"), std::string::npos) << errorOf(png);
+    ASSERT_LT(jpeg.size(), 1000u);
+    const auto frame = markerOf(jpeg, 0xc0);
+    frame[5] = frame[7] = 8;  // 2112 x 2112
+    EXPECT_NE(errorOf(jpeg).find("too short for 2112x2112"), std::string::npos) << errorOf(jpeg);
+}
+
+TEST(ImageFile, RefusesAJpegOfCountlessScans) {
+    const test::TemporaryFolder folder;
+    Bytes jpeg = jpegBytes(folder);
+    const auto scan = markerOf(jpeg, 0xda);
+    const Bytes header(scan, scan + 14);
+    for (int i = 0; i < 500; ++i) jpeg.insert(jpeg.end() - 2, header.begin(), header.end());
+    EXPECT_NE(errorOf(jpeg).find("more than 500 scans"), std::string::npos) << errorOf(jpeg);
+}
+
+TEST(ImageFile, RefusesAJpegWhoseTablesAreTooLarge) {
+    const test::TemporaryFolder folder;
+    Bytes jpeg = jpegBytes(folder);
+    const auto tables = markerOf(jpeg, 0xc4);
+    tables[5 + 15] = 250;  // codes of 16 bits, besides the twelve shorter ones
+    EXPECT_NE(errorOf(jpeg).find("a Huffman table of 262 codes"), std::string::npos)
+        << errorOf(jpeg);
+    tables[5 + 15] = 0;
+    decodeImage(jpeg, "as it was");
 }
 
 TEST(ImageFile, NamesTheFileThatIsNoImage) {
