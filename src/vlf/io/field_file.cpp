@@ -72,6 +72,7 @@ void checkRoom(const BakedRoom& room, const std::string& path) {
     checkScene(room.scene, path);
     checkCharts(room.field, room.scene, path);
     checkAtlas(room.field.atlas, path);
+    checkBakeRecord(room.field.record, path);
 }
 
 ChunkFileReader open(const std::string& path) {

@@ -101,6 +101,7 @@ void checkCameras(const Scene& scene, const std::string& path) {
         const Camera& c = scene.cameras[i];
         check(isFinite(c.eye) && isFinite(c.look) && isFinite(c.up), i, "is not finite");
         check(c.verticalFov > 0 && c.verticalFov < 180, i, "has a field of view outside (0, 180)");
+        check(hasView(c), i, "has no view: eye, look and up do not span a plane");
     }
 }
 
@@ -170,6 +171,14 @@ void checkAtlas(const IrradianceAtlas& atlas, const std::string& path) {
         for (std::size_t i = y * atlas.width; i < (y + 1) * atlas.width; ++i)
             check(isLight(atlas.irradiance[i]), i, "is not finite or negative");
     });
+}
+
+void checkBakeRecord(const BakeRecord& record, const std::string& path) {
+    const EnergyReport& e = record.energy;
+    Checker(path, "bake")(std::isfinite(record.texelSize) && std::isfinite(record.residual) &&
+                              isFinite(e.emitted) && isFinite(e.absorbed) && isFinite(e.unshot) &&
+                              isFinite(e.escaped),
+                          "has a number that is not finite");
 }
 
 void checkRadianceLayout(const RadianceField& radiance, std::size_t charts,

@@ -13,6 +13,7 @@ namespace vlf {
 void checkScene(const Scene& scene, const std::string& path);
 void checkCharts(const LightField& field, const Scene& scene, const std::string& path);
 void checkAtlas(const IrradianceAtlas& atlas, const std::string& path);
+void checkBakeRecord(const BakeRecord& record, const std::string& path);
 
 /// Sizes, directions and tiles, which must lie within the subfields; not the elements.
 void checkRadianceLayout(const RadianceField& radiance, std::size_t charts,

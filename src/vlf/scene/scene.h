@@ -107,6 +107,10 @@ Vec3 diffuseReflectance(const Scene& scene, const Material& material, const Vec2
 Vec3 mirrorReflectance(const Scene& scene, const Material& material, const Vec2& uv);
 Vec3 emittedRadiance(const Scene& scene, const Material& material, const Vec2& uv);
 
+/// Whether eye, look and up of the camera are finite and span a plane in single precision, and its
+/// field of view lies in (0, 180) degrees.
+bool hasView(const Camera& camera);
+
 /// Whether any triangle's material emits, or mirrors.
 bool hasEmitter(const Scene& scene);
 bool hasMirror(const Scene& scene);
