@@ -51,10 +51,7 @@ Camera readCamera(const json& object, const SourceLocation& where) {
             throw InputError(within("verticalFov"), "must be a number between 0 and 180 degrees");
         camera.verticalFov = fov.get<float>();
     }
-    const glm::dvec3 forward = glm::dvec3(camera.look) - glm::dvec3(camera.eye);
-    const double sine = glm::length(glm::cross(forward, glm::dvec3(camera.up)));
-    if (!(sine > 1e-6 * glm::length(forward) * glm::length(glm::dvec3(camera.up))))
-        throw InputError(where, "eye, look and up must span a plane");
+    if (!hasView(camera)) throw InputError(where, "eye, look and up must span a plane");
     return camera;
 }
 
