@@ -8,10 +8,15 @@
 
 namespace vlf {
 
-/// Adds "where: message" to the report, once.
+/// Most remarks of a report: nobody reads more, and each is compared with all before it.
+inline constexpr std::size_t kMostWarnings = 1000;
+
+/// Adds "where: message" to the report, once; of more than kMostWarnings the rest is left out.
 inline void warn(ImportReport& report, const SourceLocation& where, const std::string& message) {
-    std::string line = toString(where) + ": " + message;
     auto& all = report.warnings;
+    if (all.size() > kMostWarnings) return;
+    std::string line = all.size() < kMostWarnings ? toString(where) + ": " + message
+                                                  : where.file + ": further remarks are left out";
     if (std::find(all.begin(), all.end(), line) == all.end()) all.push_back(std::move(line));
 }
 
