@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
+#include <set>
 #include <unordered_map>
 
 namespace vlf {
@@ -159,9 +160,9 @@ class MaterialBuilder {
     int readTexture(const std::string& path, bool clamp, const SourceLocation& where) {
         const Wrap wrap = clamp ? Wrap::clamp : Wrap::repeat;
         try {
-            scene_.textures.push_back(
-                toTexture(readTextureImage(path), fs::path(path).filename().string(), wrap, wrap,
-                          report_, where));
+            scene_.textures.push_back(toTexture(readTextureImage(path),
+                                                fs::path(path).filename().string(), wrap, wrap,
+                                                report_, where));
         } catch (const Error& error) {
             warn(report_, where, fmt::format("{}; its factor alone is used", error.what()));
             return -1;
@@ -191,11 +192,32 @@ std::vector<std::string> libraryNames(const std::string& objPath, const std::str
     return names;
 }
 
+/// The operands of mtllib, each once. Throws InputError if they hold so many words that looking for
+/// files among them would take long.
+std::vector<ObjName> distinctLibraries(const ObjFile& file) {
+    constexpr std::ptrdiff_t kMostWords = 500;
+    std::vector<ObjName> distinct;
+    std::set<std::string> seen;
+    std::ptrdiff_t words = 0;
+    for (const ObjName& library : file.libraries) {
+        if (!seen.insert(library.name).second) continue;
+        words += 1 + std::count_if(library.name.begin(), library.name.end(),
+                                   [](char c) { return c == ' ' || c == '\t'; });
+        if (words > kMostWords)
+            throw InputError({file.path, library.line, ""},
+                             fmt::format("mtllib names more than {} material libraries; put the "
+                                         "materials into fewer",
+                                         kMostWords));
+        distinct.push_back(library);
+    }
+    return distinct;
+}
+
 /// All materials of the file's libraries by name; the first of a name counts.
 std::unordered_map<std::string, MtlMaterial> readLibraries(const ObjFile& file,
                                                            ImportReport& report) {
     std::unordered_map<std::string, MtlMaterial> materials;
-    for (const ObjName& library : file.libraries) {
+    for (const ObjName& library : distinctLibraries(file)) {
         for (const std::string& name : libraryNames(file.path, library.name)) {
             const auto path = findNoted(file.path, name, report);
             if (!path) {
