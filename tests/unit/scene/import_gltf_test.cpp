@@ -112,6 +112,12 @@ class Document {
     std::string buffer_;
 };
 
+Vec2 boundsOfUvs(const Scene& scene) {
+    Vec2 upper(-1e9f);
+    for (const Vec2& uv : scene.uvs) upper = glm::max(upper, uv);
+    return upper;
+}
+
 class ImportGltf : public test::ImportTest {
   protected:
     Scene import(const Document& document) {
@@ -245,9 +251,7 @@ TEST_F(ImportGltf, RejectsReferencesAndDataOutOfBounds) {
     expectError(broken([](auto& d) { d.root["bufferViews"][0]["buffer"] = 7; }), "buffers[7]");
     expectError(broken([](auto& d) { d.root["accessors"][0]["bufferView"] = 9; }),
                 "bufferViews[9]");
-    expectError(broken([](auto& d) {
-                    d.primitive()["indices"] = d.addIndices({0, 1, 4});
-                }),
+    expectError(broken([](auto& d) { d.primitive()["indices"] = d.addIndices({0, 1, 4}); }),
                 "meshes[0].primitives[0].indices: index 4");
     expectError(broken([](auto& d) { d.primitive()["attributes"]["POSITION"] = 33; }),
                 "accessors[33]");
@@ -507,6 +511,46 @@ TEST_F(ImportGltf, ReadsPerspectiveCamerasWithTheirPose) {
     test::expectNear(camera.look - camera.eye, {-1, 0, 0});
     test::expectNear(camera.up, {0, 1, 0});
     EXPECT_EQ(warningsWith("orthographic"), 1);
+}
+
+TEST_F(ImportGltf, LeavesOutCamerasWithoutAView) {
+    Document document;
+    document.root["cameras"] = {
+        {{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 0.1}}}}};
+    document.root["nodes"].push_back(
+        {{"camera", 0}, {"matrix", {1, 0, 0, 0, 0, 1e150, 0, 0, 0, 0, 1e-200, 0, 0, 0, 0, 1}}});
+    document.root["nodes"].push_back(
+        {{"camera", 0}, {"matrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1e200, 0, 0, 0, 0, 1}}});
+    document.root["scenes"][0]["nodes"] = {0, 1, 2};
+    EXPECT_TRUE(import(document).cameras.empty());
+    EXPECT_EQ(warningsWith("cameras[0]: left out: its transform is singular"), 1);
+}
+
+TEST_F(ImportGltf, ReplacesTextureCoordinatesThatAreNotFinite) {
+    Document document;
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    document.primitive()["attributes"]["TEXCOORD_0"] =
+        document.addFloats({nan, 0, 1, 0, 1, nan, 0, 1}, "VEC2");
+    for (const Vec2& uv : import(document).uvs) EXPECT_TRUE(isFinite(Vec3(uv, 0)));
+    EXPECT_EQ(warningsWith("texture coordinates: those that are not finite"), 1);
+}
+
+TEST_F(ImportGltf, TakesAnAbsurdSetOfTextureCoordinatesAsTheFirst) {
+    Document document;
+    document.addTexture({{"uri", "gone.png"}});
+    document.material()["pbrMetallicRoughness"]["baseColorTexture"]["extensions"] = {
+        {"KHR_texture_transform", {{"texCoord", 1e300}, {"offset", {0.5, 0}}}}};
+    EXPECT_EQ(maxComponent(Vec3(boundsOfUvs(import(document)), 0)), 1.5f);
+}
+
+TEST_F(ImportGltf, RefusesMoreVerticesThanFit) {
+    Document document;
+    const int many = document.addAccessor({}, 5126, 65536, "VEC3");
+    document.root["accessors"][many].erase("bufferView");
+    json primitive = document.primitive();
+    primitive["attributes"]["POSITION"] = many;
+    for (int i = 0; i < 1600; ++i) document.root["meshes"][0]["primitives"].push_back(primitive);
+    expectError(document, "triangles; at most");
 }
 
 TEST_F(ImportGltf, RefusesMoreTrianglesThanFit) {

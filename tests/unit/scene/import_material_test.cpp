@@ -27,6 +27,12 @@ TEST_F(ImportMtl, IsDiffuseWithoutSpecularReflectance) {
     EXPECT_TRUE(report_.warnings.empty());
 }
 
+TEST_F(ImportMtl, EmitsNoMoreThanCanBeReckonedWith) {
+    const Material m = importMaterial("Ke 1e29 3 0\n");
+    EXPECT_EQ(m.emission, Vec3(1e9f, 3, 0));
+    EXPECT_EQ(warningsWith("material 'paint': emits more than"), 1);
+}
+
 TEST_F(ImportMtl, IsAMirrorIfTheIlluminationModelSaysSo) {
     for (const char* model : {"3", "5"}) {
         const Material m =

@@ -153,6 +153,31 @@ TEST_F(ImportObj, FindsLibrariesWithBlanksBackslashesAndSeveralNames) {
     EXPECT_TRUE(report_.warnings.empty());
 }
 
+TEST_F(ImportObj, RefusesCountlessLibraries) {
+    std::string words, lines;
+    for (int i = 0; i < 501; ++i) words += "a ";
+    for (int i = 0; i < 501; ++i) lines += "mtllib " + std::to_string(i) + "\n";
+    for (const std::string& text : {"mtllib " + words + "b\n", lines})
+        EXPECT_NE(errorOf(write("a.obj", text + kSquare + "f 1 2 3\n")).find("mtllib names more"),
+                  std::string::npos);
+}
+
+TEST_F(ImportObj, TakesALibraryThatIsNamedAgainAndAgainAsOne) {
+    std::string lines;
+    for (int i = 0; i < 2000; ++i) lines += "mtllib a.mtl\n";
+    write("a.mtl", "newmtl a\nKd 1e99 1 1\nKd 0.3 0.3 0.3\n");
+    const Scene scene = import(write("a.obj", lines + "usemtl a\n" + kSquare + "f 1 2 3\n"));
+    test::expectNear(scene.material(0).diffuse, Vec3(0.3f));
+}
+
+TEST_F(ImportObj, MakesAThousandRemarksAtMost) {
+    std::string materials;
+    for (int i = 0; i < 1500; ++i) materials += "usemtl m" + std::to_string(i) + "\n";
+    import(write("a.obj", kSquare + materials + "f 1 2 3\n"));
+    ASSERT_EQ(report_.warnings.size(), 1001u);
+    EXPECT_NE(report_.warnings.back().find("further remarks are left out"), std::string::npos);
+}
+
 TEST_F(ImportObj, KeepsTheMaterialAcrossObjects) {
     write("m.mtl", "newmtl a\nKd 0.1 0.2 0.3\n");
     const Scene scene =
@@ -236,6 +261,29 @@ TEST_F(ImportObj, UsesTheFactorWhereATextureIsMissingOrDamaged) {
     EXPECT_EQ(warningsWith("m.mtl:6: material 'b'"), 1);
 }
 
+TEST_F(ImportObj, ReplacesPixelsThatAreNoLight) {
+    constexpr float kInfinity = std::numeric_limits<float>::infinity();
+    Image wild(2, 1);
+    wild.pixels = {{-1, kInfinity, std::numeric_limits<float>::quiet_NaN()},
+                   {1e38f, 0.5f, -kInfinity}};
+    writeExr(path("wild.exr"), wild);
+    write("m.mtl", "newmtl a\nKe 1 1 1\nmap_Ke wild.exr\n");
+    const Scene scene =
+        import(write("a.obj", "mtllib m.mtl\nusemtl a\n" + kSquare + "vt 0 0\nf 1/1 2/1 3/1\n"));
+    ASSERT_EQ(scene.textures.size(), 1u);
+    EXPECT_EQ(scene.textures[0].linear, (std::vector<Vec3>{{0, 1e9f, 0}, {1e9f, 0.5f, 0}}));
+    EXPECT_EQ(warningsWith("m.mtl:3: material 'a': texture 'wild.exr': values that are"), 1);
+}
+
+TEST_F(ImportObj, ReplacesTextureCoordinatesThatOverflow) {
+    writePng(path("t.png"), Image(2, 2, Vec3(1)));
+    write("m.mtl", "newmtl a\nmap_Kd -s 1e5 1 t.png\n");
+    const Scene scene = import(write(
+        "a.obj", "mtllib m.mtl\nusemtl a\n" + kSquare + "vt 1e38 0\nvt 1 0\nf 1/1 2/2 3/2\n"));
+    EXPECT_EQ(scene.uvs, (std::vector<Vec2>{{0, 0}, {1e5f, 0}, {1e5f, 0}}));
+    EXPECT_EQ(warningsWith("texture coordinates: those that are not finite"), 1);
+}
+
 TEST_F(ImportObj, ReadsTheCamerasBesideIt) {
     write("a.cameras.json", R"({"cameras": [{"name": "front", "eye": [1, 2, 3], "look": [0, 0, 0]},
         {"name": "top", "eye": [0, 5, 0], "look": [0, 0, 0], "up": [0, 0, -1], "verticalFov": 30}]})");
@@ -259,6 +307,8 @@ TEST_F(ImportObj, NamesTheElementOfABadCamera) {
         {camera(R"("look": [0, 0, 1], "verticalFov": 180)"), "cameras[0].verticalFov"},
         {camera(R"("look": [0, 0, 0])"), "cameras[0]"},
         {camera(R"("look": [0, 1, 0])"), "cameras[0]"},
+        {camera(R"("look": [3e38, 0, 3e38])"), "cameras[0]"},
+        {camera(R"("look": [0, 0, 1e-30])"), "cameras[0]"},
         {camera(R"("look": [0, 0, 1e999])"), "a.cameras.json"},
         {"[", "a.cameras.json"},
         {"[]", "a.cameras.json"}};

@@ -1,5 +1,6 @@
 // glTF 2.0 to Scene: node transforms, triangles of primitives, cameras.
 
+#include "vlf/scene/import/file_bytes.h"
 #include "vlf/scene/import/gltf_file.h"
 #include "vlf/scene/import/gltf_material.h"
 #include "vlf/scene/import/import.h"
@@ -165,7 +166,17 @@ class GltfImporter {
         return result;
     }
 
-    /// Number of triangles of all instances, before anything is read.
+    /// Elements of an accessor; 0 if there is no such accessor or it claims more than any file has,
+    /// which reading it will say.
+    std::size_t vertexCount(int accessor) const {
+        const auto& accessors = file_.model.accessors;
+        const bool exists = accessor >= 0 && static_cast<std::size_t>(accessor) < accessors.size();
+        const std::size_t count = exists ? accessors[accessor].count : 0;
+        return count <= kMaxFileBytes ? count : 0;
+    }
+
+    /// Number of triangles of all instances, before anything is read; of vertices that no triangle
+    /// uses, as many as they would make.
     std::size_t triangleCount(const std::vector<Instance>& instances) const {
         const tinygltf::Model& model = file_.model;
         std::size_t count = 0;
@@ -179,9 +190,10 @@ class GltfImporter {
                 if (corners < 0 || static_cast<std::size_t>(corners) >= model.accessors.size())
                     continue;
                 const bool list = primitive.mode < 0 || primitive.mode == TINYGLTF_MODE_TRIANGLES;
+                const std::size_t triangles = model.accessors[corners].count / (list ? 3 : 1);
                 // Saturates: a single count can claim anything.
-                count +=
-                    std::min(model.accessors[corners].count / (list ? 3 : 1), kMaxTriangles + 1);
+                count += std::min(std::max(triangles, vertexCount(positions->second) / 3),
+                                  kMaxTriangles + 1);
             }
         }
         return count;
@@ -314,12 +326,12 @@ class GltfImporter {
         if (!(fov > 0 && fov < 180)) return warn(report_, at, "left out: yfov must lie in (0, π)");
         const glm::dvec3 eye(worldFromNode[3]), back(worldFromNode[2]), up(worldFromNode[1]);
         const glm::dvec3 look = eye - back / glm::length(back);
-        if (!(glm::length(glm::cross(back, up)) > 0) || !isFinite(Vec3(eye)))
-            return warn(report_, at, "left out: its transform is singular");
         std::string name = node.name.empty() ? source.name : node.name;
         if (name.empty()) name = fmt::format("camera {}", scene_.cameras.size());
-        scene_.cameras.push_back(
-            {name, Vec3(eye), Vec3(look), Vec3(up / glm::length(up)), static_cast<float>(fov)});
+        const Camera camera{name, Vec3(eye), Vec3(look), Vec3(up / glm::length(up)),
+                            static_cast<float>(fov)};
+        if (!hasView(camera)) return warn(report_, at, "left out: its transform is singular");
+        scene_.cameras.push_back(camera);
     }
 
     const GltfFile& file_;

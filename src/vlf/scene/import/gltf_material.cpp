@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <tuple>
 
@@ -24,6 +25,12 @@ double number(const tinygltf::Value& object, const char* key, double otherwise) 
     if (!object.IsObject() || !object.Has(key)) return otherwise;
     const tinygltf::Value& value = object.Get(key);
     return value.IsNumber() ? value.GetNumberAsDouble() : otherwise;
+}
+
+/// A whole number; `otherwise` if it is none that fits.
+int wholeNumber(const tinygltf::Value& object, const char* key, int otherwise) {
+    const double value = number(object, key, otherwise);
+    return std::abs(value) <= std::numeric_limits<int>::max() ? static_cast<int>(value) : otherwise;
 }
 
 double extensionNumber(const tinygltf::ExtensionMap& extensions, const char* extension,
@@ -48,7 +55,7 @@ GltfUvMapping uvMapping(const tinygltf::TextureInfo& info) {
     const auto found = info.extensions.find("KHR_texture_transform");
     if (found == info.extensions.end()) return mapping;
     const tinygltf::Value& transform = found->second;
-    mapping.set = static_cast<int>(number(transform, "texCoord", mapping.set));
+    mapping.set = wholeNumber(transform, "texCoord", mapping.set);
     mapping.offset = vec2(transform, "offset", Vec2(0));
     const Vec2 scale = vec2(transform, "scale", Vec2(1));
     const double angle = number(transform, "rotation", 0);
@@ -82,8 +89,8 @@ Surface specularGlossiness(const tinygltf::Value& extension) {
     }
     if (extension.Has("diffuseTexture")) {
         const tinygltf::Value& texture = extension.Get("diffuseTexture");
-        surface.baseTexture.index = static_cast<int>(number(texture, "index", -1));
-        surface.baseTexture.texCoord = static_cast<int>(number(texture, "texCoord", 0));
+        surface.baseTexture.index = wholeNumber(texture, "index", -1);
+        surface.baseTexture.texCoord = wholeNumber(texture, "texCoord", 0);
     }
     return surface;
 }
