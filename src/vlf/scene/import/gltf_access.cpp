@@ -13,7 +13,7 @@ namespace vlf {
 namespace {
 
 /// Most elements of an accessor that no buffer view backs (all zero, or sparse).
-constexpr std::size_t kMaxUnbackedElements = std::size_t{1} << 16;
+constexpr std::size_t kMaxUnbackedElements = std::size_t{1} << 14;
 
 /// Elements in a buffer.
 struct ElementRange {
