@@ -3,6 +3,7 @@
 #include "vlf/base/error.h"
 #include "vlf/base/parallel.h"
 #include "vlf/io/radiance_codec.h"
+#include "vlf/scene/camera_view.h"
 
 #include <algorithm>
 #include <bit>

@@ -63,13 +63,6 @@ Vec3 emittedRadiance(const Scene& scene, const Material& material, const Vec2& u
     return textured(scene, material.emission, material.emissionTexture, uv);
 }
 
-bool hasView(const Camera& camera) {
-    const Vec3 forward = glm::normalize(camera.look - camera.eye);
-    const Vec3 side = glm::cross(forward, glm::normalize(camera.up));
-    return isFinite(camera.eye) && glm::length(side) > 1e-5f && camera.verticalFov > 0 &&
-           camera.verticalFov < 180;
-}
-
 bool hasEmitter(const Scene& scene) {
     return std::any_of(scene.triangles.begin(), scene.triangles.end(),
                        [&](const Triangle& t) { return scene.materials[t.material].isEmitter(); });

@@ -63,8 +63,8 @@ struct Camera {
     std::string name;
     Vec3 eye{0, 0, 0}, look{0, 0, -1}, up{0, 1, 0};
     float verticalFov = 50;
-    /// Where the picture's centre lies on the plane one metre before the eye: metres to the right
-    /// of and above the line of sight. Of one eye of a pair; scene files do not hold it.
+    /// Where the picture's centre lies on the plane one metre before the eye: metres to the right of
+    /// and above the line of sight. Of one eye of a pair; scene files do not hold it.
     Vec2 shift{0};
 };
 
@@ -106,10 +106,6 @@ Vec3 shadingNormalAt(const Scene& scene, std::uint32_t triangle, const Vec2& bar
 Vec3 diffuseReflectance(const Scene& scene, const Material& material, const Vec2& uv);
 Vec3 mirrorReflectance(const Scene& scene, const Material& material, const Vec2& uv);
 Vec3 emittedRadiance(const Scene& scene, const Material& material, const Vec2& uv);
-
-/// Whether eye, look and up of the camera are finite and span a plane in single precision, and its
-/// field of view lies in (0, 180) degrees.
-bool hasView(const Camera& camera);
 
 /// Whether any triangle's material emits, or mirrors.
 bool hasEmitter(const Scene& scene);

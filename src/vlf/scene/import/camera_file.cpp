@@ -1,6 +1,7 @@
 #include "vlf/scene/import/camera_file.h"
 
 #include "vlf/base/error.h"
+#include "vlf/scene/camera_view.h"
 #include "vlf/scene/import/file_bytes.h"
 #include "vlf/scene/import/warn.h"
 

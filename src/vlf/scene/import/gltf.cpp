@@ -1,5 +1,6 @@
 // glTF 2.0 to Scene: node transforms, triangles of primitives, cameras.
 
+#include "vlf/scene/camera_view.h"
 #include "vlf/scene/import/file_bytes.h"
 #include "vlf/scene/import/gltf_file.h"
 #include "vlf/scene/import/gltf_material.h"

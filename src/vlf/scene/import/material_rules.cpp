@@ -22,8 +22,9 @@ Texture toTexture(DecodedImage image, const std::string& name, Wrap wrapU, Wrap 
         }
     if (changed)
         warn(report, where,
-             "texture '" + name + "': values that are negative, infinite or not a number are "
-                                  "replaced");
+             "texture '" + name +
+                 "': values that are negative, infinite or not a number are "
+                 "replaced");
     return {name,  image.width, image.height, std::move(image.srgb8), std::move(image.linear),
             wrapU, wrapV};
 }
