@@ -513,6 +513,15 @@ TEST_F(ImportGltf, ReadsPerspectiveCamerasWithTheirPose) {
     EXPECT_EQ(warningsWith("orthographic"), 1);
 }
 
+TEST_F(ImportGltf, RefusesAnImageOutsideOfItsBufferThoughNobodyUsesIt) {
+    Document document;
+    const int view = document.addView(pictureBytes(Vec3(1)));
+    document.root["images"] = {{{"bufferView", view}, {"mimeType", "image/png"}}};
+    EXPECT_EQ(import(document).triangles.size(), 2u);
+    document.root["bufferViews"][view]["byteOffset"] = 1ull << 40;
+    expectError(document, "images[0]: bufferViews[2] lies outside of its buffer");
+}
+
 TEST_F(ImportGltf, LeavesOutCamerasWithoutAView) {
     Document document;
     document.root["cameras"] = {

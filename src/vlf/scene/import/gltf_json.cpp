@@ -132,6 +132,26 @@ void checkAllIndices(const std::string& path, const json& root) {
     }
 }
 
+/// A number of an element that exists, else of nothing; 0 if it is not there.
+json numberOf(const json& elements, const json& index, const char* name) {
+    if (!index.is_number_unsigned() || index >= elements.size()) return 0;
+    return elements[index.get<std::size_t>()].value(name, json(0));
+}
+
+/// tinygltf takes the address of an image in a buffer view before anybody looks where it is.
+void checkImageViews(const std::string& path, const json& root) {
+    const json &views = elements(root, "bufferViews"), &images = elements(root, "images");
+    for (std::size_t i = 0; i < images.size(); ++i) {
+        const json view = images[i].value("bufferView", json());
+        const json offset = numberOf(views, view, "byteOffset");
+        const json buffer = numberOf(views, view, "buffer");
+        if (!(offset >= 0) || offset > numberOf(elements(root, "buffers"), buffer, "byteLength"))
+            throw InputError(
+                {path, 0, fmt::format("images[{}]", i)},
+                fmt::format("bufferViews[{}] lies outside of its buffer", view.dump()));
+    }
+}
+
 void checkVersion(const std::string& path, const json& root) {
     const SourceLocation where{path, 0, "asset"};
     if (!root.contains("asset") || !root["asset"].is_object())
@@ -256,6 +276,7 @@ std::string checkGltfJson(const std::string& path, const GltfChunks& chunks, Imp
     std::string advice = checkExtensions(path, root, report);
     checkBuffers(path, root, chunks.binaryBytes);
     checkAllIndices(path, root);
+    checkImageViews(path, root);
     return advice;
 }
 
