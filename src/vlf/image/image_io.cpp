@@ -7,6 +7,7 @@
 #include "vlf/image/jpeg_header.h"
 #include "vlf/image/radiance_hdr.h"
 #include "vlf/image/srgb.h"
+#include "vlf/image/webp.h"
 
 #include <algorithm>
 #include <array>
@@ -64,7 +65,9 @@ void readSize(Bytes bytes, const std::string& name, AnyImage& image) {
     if (isJpeg(bytes)) checkJpegHeader(bytes, name);
     if (isRefused(bytes) || !stbi_info_from_memory(bytes.data(), static_cast<int>(bytes.size()),
                                                    &image.width, &image.height, &channels))
-        throw InputError(name + ": not an image that can be read (EXR, PNG, JPEG, HDR, TGA, BMP)");
+        throw InputError(
+            name +
+            ": not an image that can be read (EXR, PNG, JPEG, HDR, TGA, BMP; of textures, WebP)");
     requireImageSize(image.width, image.height, bytes.size(), name, mostPixelsPerByte(bytes));
 }
 
@@ -147,6 +150,7 @@ void appendBytes(void* target, void* data, int count) {
 DecodedImage decodeImage(Bytes bytes, const std::string& nameForErrors) {
     if (std::optional<Image> linear = decodeHighRange(bytes, nameForErrors))
         return {linear->width, linear->height, {}, std::move(linear->pixels)};
+    if (isWebp(bytes)) return decodeWebp(bytes, nameForErrors);
     DecodedImage image;
     readSize(bytes, nameForErrors, image);
     requireWholeFile(bytes, nameForErrors);

@@ -1,6 +1,6 @@
 #pragma once
 // Pictures to and from files. Read are OpenEXR and Radiance HDR (linear), PNG, JPEG, TGA and BMP
-// (encoded in sRGB); written OpenEXR and PNG.
+// (encoded in sRGB), as textures WebP too; written OpenEXR and PNG.
 // Every reader takes at most kMaxPixels pixels; larger, damaged or unknown files throw InputError,
 // files that cannot be opened FileError. Writers write beside the target and rename, so that a
 // failure (FileError) leaves what was there before.

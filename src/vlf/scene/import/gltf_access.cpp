@@ -1,5 +1,6 @@
 // Accessors, buffer views and images of a glTF document, with every bound checked.
 
+#include "vlf/scene/import/file_bytes.h"
 #include "vlf/scene/import/gltf_file.h"
 
 #include <fmt/format.h>
@@ -23,15 +24,13 @@ struct ElementRange {
     const std::uint8_t* element(std::size_t i) const { return data + i * stride; }
 };
 
+/// A view that lies within its buffer. Indices of sparse accessors come here unchecked.
 const tinygltf::BufferView& checkedView(const GltfFile& file, int index,
                                         const SourceLocation& where) {
-    const tinygltf::Model& model = file.model;
-    if (index < 0 || static_cast<std::size_t>(index) >= model.bufferViews.size())
+    if (index < 0 || static_cast<std::size_t>(index) >= file.model.bufferViews.size())
         throw InputError(where, fmt::format("bufferViews[{}] does not exist", index));
-    const tinygltf::BufferView& view = model.bufferViews[index];
-    if (view.buffer < 0 || static_cast<std::size_t>(view.buffer) >= model.buffers.size())
-        throw InputError(where, fmt::format("buffers[{}] does not exist", view.buffer));
-    const std::size_t size = model.buffers[view.buffer].data.size();
+    const tinygltf::BufferView& view = file.model.bufferViews[index];
+    const std::size_t size = file.buffers[view.buffer].size();
     if (view.byteOffset > size || view.byteLength > size - view.byteOffset)
         throw InputError(
             where,
@@ -50,8 +49,7 @@ ElementRange locate(const GltfFile& file, int viewIndex, std::size_t offset, std
         throw InputError(
             where, fmt::format("{} elements do not fit into bufferViews[{}] of {} bytes", count,
                                viewIndex, view.byteLength));
-    const auto& buffer = file.model.buffers[view.buffer].data;
-    return {buffer.data() + view.byteOffset + offset, stride};
+    return {file.buffers[view.buffer].data() + view.byteOffset + offset, stride};
 }
 
 template <class T>
@@ -109,8 +107,6 @@ std::size_t checkedComponentSize(int type, const SourceLocation& where) {
 
 const tinygltf::Accessor& checkedAccessor(const GltfFile& file, int index, int components,
                                           const SourceLocation& where) {
-    if (index < 0 || static_cast<std::size_t>(index) >= file.model.accessors.size())
-        throw InputError(where, fmt::format("accessors[{}] does not exist", index));
     const tinygltf::Accessor& accessor = file.model.accessors[index];
     const int found = tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor.type));
     if (found != components)
@@ -198,14 +194,21 @@ std::vector<std::uint32_t> readIndices(const GltfFile& file, int index, std::siz
     return indices;
 }
 
-std::vector<std::uint8_t> imageBytes(const GltfFile& file, int image) {
-    const tinygltf::Image& source = file.model.images[image];
-    if (source.bufferView < 0) return source.image;
-    const auto& view =
-        checkedView(file, source.bufferView, file.at(fmt::format("images[{}]", image)));
-    const auto& data = file.model.buffers[view.buffer].data;
-    const auto begin = data.begin() + static_cast<std::ptrdiff_t>(view.byteOffset);
-    return {begin, begin + static_cast<std::ptrdiff_t>(view.byteLength)};
+GltfBytes imageBytes(const GltfFile& file, int index) {
+    const GltfImage& image = file.images[index];
+    const SourceLocation where = file.at(fmt::format("images[{}]", index));
+    if (image.bufferView >= 0) {
+        const tinygltf::BufferView& view = checkedView(file, image.bufferView, where);
+        const auto begin =
+            file.buffers[view.buffer].begin() + static_cast<std::ptrdiff_t>(view.byteOffset);
+        return {begin, begin + static_cast<std::ptrdiff_t>(view.byteLength)};
+    }
+    if (auto bytes = dataUriBytes(image.uri, where)) return std::move(*bytes);
+    try {
+        return readFileBytes(pathOfUri(file.path, image.uri));
+    } catch (const FileError&) {
+        return {};
+    }
 }
 
 }  // namespace vlf

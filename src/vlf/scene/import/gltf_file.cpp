@@ -1,43 +1,17 @@
 #include "vlf/scene/import/gltf_file.h"
 
 #include "vlf/scene/import/file_bytes.h"
+#include "vlf/scene/import/gltf_compression.h"
 #include "vlf/scene/import/gltf_json.h"
 #include "vlf/scene/import/warn.h"
 
-#include <filesystem>
+#include <nlohmann/json.hpp>
 
 namespace vlf {
 
 namespace {
 
-namespace fs = std::filesystem;
-
-/// Image loader of tinygltf: keeps the bytes. Those in buffer views are left where they are, as
-/// tinygltf does not check that they exist.
-bool keepImageBytes(tinygltf::Image* image, int, std::string*, std::string*, int, int,
-                    const unsigned char* bytes, int size, void*) {
-    if (image->bufferView < 0) image->image.assign(bytes, bytes + size);
-    return true;
-}
-
-/// Only files below the document's folder, given as an absolute path, are looked at.
-bool fileExists(const std::string& path, void* report) {
-    if (!fs::path(path).is_absolute()) return false;
-    noteFile(*static_cast<ImportReport*>(report), path);
-    std::error_code ignored;
-    return fs::is_regular_file(path, ignored);
-}
-
-bool readWholeFile(std::vector<unsigned char>* bytes, std::string* error, const std::string& path,
-                   void*) {
-    try {
-        *bytes = readFileBytes(path);
-        return true;
-    } catch (const Error& e) {
-        *error = e.what();
-        return false;
-    }
-}
+using nlohmann::json;
 
 std::string oneLine(std::string text) {
     while (!text.empty() && text.back() == '\n') text.pop_back();
@@ -46,40 +20,53 @@ std::string oneLine(std::string text) {
     return text;
 }
 
-/// Reads the document. `advice` follows the message if that fails.
-void parse(GltfFile& file, const std::vector<std::uint8_t>& bytes, const std::string& advice,
-           ImportReport& report) {
-    tinygltf::TinyGLTF loader;
-    loader.SetImageLoader(keepImageBytes, nullptr);
-    loader.SetFsCallbacks({fileExists, [](const std::string& path, void*) { return path; },
-                           readWholeFile, nullptr, &report});
-    const std::string folder = fs::absolute(file.path).parent_path().string();
+std::string wordOf(const json& object, const char* name) {
+    const auto found = object.find(name);
+    return found != object.end() && found->is_string() ? found->get<std::string>() : "";
+}
+
+std::vector<GltfImage> findImages(const std::string& path, const json& root, ImportReport& report) {
+    std::vector<GltfImage> images;
+    for (const json& element : gltfElements(root, "images")) {
+        GltfImage image{wordOf(element, "name"), wordOf(element, "uri"),
+                        element.value("bufferView", -1)};
+        if (image.bufferView < 0 && !image.uri.starts_with("data:"))
+            noteFile(report, pathOfUri(path, image.uri));
+        images.push_back(std::move(image));
+    }
+    return images;
+}
+
+/// The structure of a document; buffers and images stay empty, as tinygltf does not read those
+/// that are missing, compressed or of other formats.
+tinygltf::Model modelOf(const std::string& path, json root) {
+    root.erase("buffers");
+    root.erase("images");
+    const std::string text = root.dump();
+    tinygltf::Model model;
     std::string error, ignored;
-    const auto size = static_cast<unsigned>(bytes.size());
     bool ok = false;
     try {
-        ok = isGlb(bytes) ? loader.LoadBinaryFromMemory(&file.model, &error, &ignored, bytes.data(),
-                                                        size, folder)
-                          : loader.LoadASCIIFromString(&file.model, &error, &ignored,
-                                                       reinterpret_cast<const char*>(bytes.data()),
-                                                       size, folder);
+        ok = tinygltf::TinyGLTF().LoadASCIIFromString(&model, &error, &ignored, text.data(),
+                                                      static_cast<unsigned>(text.size()), "");
     } catch (const std::exception& e) {
         error += e.what();
     }
-    if (!ok)
-        throw InputError({file.path, 0, ""}, "not a valid glTF file: " + oneLine(error) +
-                                                 (advice.empty() ? "" : "; " + advice));
-    if (!error.empty()) warn(report, {file.path, 0, ""}, oneLine(error));
+    if (!ok) throw InputError({path, 0, ""}, "not a valid glTF file: " + oneLine(error));
+    return model;
 }
 
 }  // namespace
 
 GltfFile readGltf(const std::string& path, ImportReport& report) {
-    GltfFile file{path, {}};
     noteFile(report, path);
     const std::vector<std::uint8_t> bytes = readFileBytes(path);
-    const std::string advice = checkGltfJson(path, gltfChunks(path, bytes), report);
-    parse(file, bytes, advice, report);
+    const GltfChunks chunks = gltfChunks(path, bytes);
+    json root = parseGltf(path, chunks.json, report);
+    GltfFile file{path, {}, readGltfBuffers(path, root, chunks.binary, report), {}};
+    decompressGltf(path, root, file.buffers);
+    file.images = findImages(path, root, report);
+    file.model = modelOf(path, std::move(root));
     return file;
 }
 

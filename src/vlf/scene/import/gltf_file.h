@@ -3,6 +3,7 @@
 
 #include "vlf/base/error.h"
 #include "vlf/math/vector.h"
+#include "vlf/scene/import/gltf_data.h"
 #include "vlf/scene/import/import.h"
 
 #include <tiny_gltf.h>
@@ -13,23 +14,31 @@
 
 namespace vlf {
 
-/// A glTF document with its buffers. Images hold the undecoded bytes of their files in
-/// tinygltf::Image::image (empty: not found).
+/// Where the bytes of an image are: in a buffer view, a data URI or a file.
+struct GltfImage {
+    std::string name, uri;
+    int bufferView = -1;
+};
+
+/// A glTF document, not compressed, with its buffers. Every index from one element to another
+/// exists. The model's own buffers and images are empty.
 struct GltfFile {
     std::string path;
     tinygltf::Model model;
+    std::vector<GltfBytes> buffers;
+    std::vector<GltfImage> images;
 
     SourceLocation at(const std::string& element) const { return {path, 0, element}; }
 };
 
-/// Reads a .gltf or .glb file (told apart by content) and the buffers and images beside it. Throws
-/// InputError for a malformed file, glTF 1.0 and required extensions that are not supported;
-/// other unsupported extensions are reported.
+/// Reads a .gltf or .glb file (told apart by content) and the buffers beside it. Throws InputError
+/// for a malformed file, glTF 1.0 and required extensions that are not supported; other unsupported
+/// extensions are reported.
 GltfFile readGltf(const std::string& path, ImportReport& report);
 
 /// The elements of an accessor of `components` (1 to 4) numbers, one after the other; normalised
 /// integers as fractions, sparse values put in. Throws InputError, naming `element` as the user of
-/// the accessor, if it does not exist, has another type, or lies outside of its buffer.
+/// the accessor, if it has another type or lies outside of its buffer.
 std::vector<float> readNumbers(const GltfFile& file, int accessor, int components,
                                const std::string& element);
 
@@ -41,7 +50,7 @@ std::vector<Vec2> readVec2s(const GltfFile& file, int accessor, const std::strin
 std::vector<std::uint32_t> readIndices(const GltfFile& file, int accessor, std::size_t limit,
                                        const std::string& element);
 
-/// The bytes of an image, from its file, its data URI or its buffer view.
-std::vector<std::uint8_t> imageBytes(const GltfFile& file, int image);
+/// The bytes of an image; empty if its file cannot be read.
+GltfBytes imageBytes(const GltfFile& file, int image);
 
 }  // namespace vlf

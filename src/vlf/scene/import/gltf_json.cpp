@@ -3,8 +3,8 @@
 #include "vlf/scene/import/warn.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <map>
 #include <set>
 
@@ -17,140 +17,173 @@ using nlohmann::json;
 constexpr int kMaxJsonDepth = 200;
 constexpr std::size_t kMaxJsonBytes = std::size_t{1} << 30;
 
-const std::set<std::string> kSupported = {"KHR_materials_emissive_strength",
-                                          "KHR_materials_pbrSpecularGlossiness",
-                                          "KHR_texture_transform", "KHR_mesh_quantization"};
+const std::set<std::string> kSupported = {
+    "EXT_meshopt_compression", "EXT_texture_webp",
+    "KHR_lights_punctual",     "KHR_materials_emissive_strength",
+    "KHR_mesh_quantization",   "KHR_materials_pbrSpecularGlossiness",
+    "KHR_texture_transform"};
 
 /// Extensions without which a scene can still be shown, even if they are required.
 bool isDispensable(const std::string& extension) {
-    return extension.starts_with("KHR_materials_") || extension == "KHR_lights_punctual" ||
+    return extension.starts_with("KHR_materials_") || extension == "KHR_texture_basisu" ||
            extension == "KHR_xmp_json_ld";
 }
 
-/// Extensions that files are commonly compressed with, and what to do.
-const std::map<std::string, std::string> kCompressions = {
-    {"KHR_draco_mesh_compression", "export without Draco compression"},
-    {"EXT_meshopt_compression", "export without meshopt compression"},
-    {"KHR_texture_basisu", "export with PNG or JPEG textures"},
-    {"EXT_texture_webp", "export with PNG or JPEG textures"}};
-
-std::string adviceFor(const std::string& extension) {
-    const auto found = kCompressions.find(extension);
-    return fmt::format("{} is not supported; {}", extension,
-                       found == kCompressions.end() ? "export without it" : found->second);
+bool isArray(const json& value) {
+    return value.is_array();
+}
+bool isObject(const json& value) {
+    return value.is_object();
+}
+bool isString(const json& value) {
+    return value.is_string();
+}
+bool isFlag(const json& value) {
+    return value.is_boolean();
+}
+bool isWhole(const json& value) {
+    return value.is_number_unsigned();
+}
+bool isNumbers(const json& value) {
+    return value.is_array() && std::all_of(value.begin(), value.end(),
+                                           [](const json& item) { return item.is_number(); });
 }
 
-/// Properties of the elements of a collection and the type they must have if they are there.
+/// Properties of the elements of a collection and what they must be if they are there.
 struct Property {
     const char *collection, *name;
-    bool (json::*hasType)() const noexcept;
+    bool (*isRight)(const json&);
     const char* type;
 };
-constexpr auto kArray = &json::is_array;
-constexpr auto kObject = &json::is_object;
-constexpr auto kNumber = &json::is_number;
 constexpr Property kProperties[] = {
-    {"scenes", "nodes", kArray, "an array"},
-    {"nodes", "children", kArray, "an array"},
-    {"nodes", "matrix", kArray, "an array"},
-    {"nodes", "translation", kArray, "an array"},
-    {"nodes", "rotation", kArray, "an array"},
-    {"nodes", "scale", kArray, "an array"},
-    {"nodes", "mesh", kNumber, "a number"},
-    {"nodes", "camera", kNumber, "a number"},
-    {"meshes", "primitives", kArray, "an array"},
-    {"primitives", "attributes", kObject, "an object"},
-    {"primitives", "indices", kNumber, "a number"},
-    {"primitives", "material", kNumber, "a number"},
-    {"primitives", "mode", kNumber, "a number"},
-    {"accessors", "bufferView", kNumber, "a number"},
-    {"accessors", "byteOffset", kNumber, "a number"},
-    {"accessors", "count", kNumber, "a number"},
-    {"accessors", "sparse", kObject, "an object"},
-    {"bufferViews", "buffer", kNumber, "a number"},
-    {"bufferViews", "byteOffset", kNumber, "a number"},
-    {"bufferViews", "byteLength", kNumber, "a number"},
-    {"bufferViews", "byteStride", kNumber, "a number"},
-    {"materials", "pbrMetallicRoughness", kObject, "an object"},
-    {"materials", "emissiveFactor", kArray, "an array"},
-    {"textures", "source", kNumber, "a number"},
+    {"nodes", "matrix", isNumbers, "an array of numbers"},
+    {"nodes", "translation", isNumbers, "an array of numbers"},
+    {"nodes", "rotation", isNumbers, "an array of numbers"},
+    {"nodes", "scale", isNumbers, "an array of numbers"},
+    {"nodes", "weights", isNumbers, "an array of numbers"},
+    {"nodes", "children", isArray, "an array"},
+    {"scenes", "nodes", isArray, "an array"},
+    {"meshes", "primitives", isArray, "an array"},
+    {"meshes", "weights", isNumbers, "an array of numbers"},
+    {"primitives", "attributes", isObject, "an object"},
+    {"primitives", "targets", isArray, "an array"},
+    {"primitives", "mode", isWhole, "a whole number"},
+    {"skins", "joints", isArray, "an array"},
+    {"accessors", "byteOffset", isWhole, "a whole number"},
+    {"accessors", "count", isWhole, "a whole number"},
+    {"accessors", "componentType", isWhole, "a whole number"},
+    {"accessors", "type", isString, "a string"},
+    {"accessors", "normalized", isFlag, "true or false"},
+    {"accessors", "sparse", isObject, "an object"},
+    {"bufferViews", "byteOffset", isWhole, "a whole number"},
+    {"bufferViews", "byteLength", isWhole, "a whole number"},
+    {"bufferViews", "byteStride", isWhole, "a whole number"},
+    {"buffers", "byteLength", isWhole, "a whole number"},
+    {"buffers", "uri", isString, "a string"},
+    {"images", "uri", isString, "a string"},
+    {"materials", "pbrMetallicRoughness", isObject, "an object"},
+    {"materials", "emissiveFactor", isNumbers, "an array of numbers"},
 };
 
-void checkElement(const std::string& path, const json& value, const std::string& collection,
-                  const std::string& element) {
-    if (!value.is_object()) throw InputError({path, 0, element}, "must be an object");
-    for (const Property& property : kProperties) {
-        if (property.collection != collection) continue;
-        const auto found = value.find(property.name);
-        if (found != value.end() && !((*found).*property.hasType)())
-            throw InputError({path, 0, fmt::format("{}.{}", element, property.name)},
-                             fmt::format("must be {}", property.type));
+/// Properties that hold indices into a collection of the root, one or (in arrays and objects) more.
+struct Reference {
+    const char *collection, *name, *target;
+};
+constexpr Reference kReferences[] = {
+    {"scenes", "nodes", "nodes"},
+    {"nodes", "children", "nodes"},
+    {"nodes", "mesh", "meshes"},
+    {"nodes", "skin", "skins"},
+    {"nodes", "camera", "cameras"},
+    {"primitives", "attributes", "accessors"},
+    {"primitives", "targets", "accessors"},
+    {"primitives", "indices", "accessors"},
+    {"primitives", "material", "materials"},
+    {"skins", "joints", "nodes"},
+    {"skins", "inverseBindMatrices", "accessors"},
+    {"accessors", "bufferView", "bufferViews"},
+    {"bufferViews", "buffer", "buffers"},
+    {"textures", "source", "images"},
+    {"textures", "sampler", "samplers"},
+    {"images", "bufferView", "bufferViews"},
+};
+
+void checkReference(const SourceLocation& where, const json& value, const char* target,
+                    std::size_t count) {
+    if (value.is_structured()) {
+        for (const auto& [key, item] : value.items()) {
+            const std::string place = value.is_array() ? "[" + key + "]" : "." + key;
+            checkReference({where.file, 0, where.element + place}, item, target, count);
+        }
+    } else if (!value.is_number_unsigned() || value >= count) {
+        throw InputError(where, fmt::format("{}[{}] does not exist", target, value.dump()));
     }
 }
 
-/// A collection whose type has been checked; empty if it is not there.
-const json& elements(const json& parent, const char* collection) {
-    static const json kNone = json::array();
-    const auto found = parent.find(collection);
-    return found == parent.end() ? kNone : *found;
-}
-
-void checkCollection(const std::string& path, const json& parent, const std::string& name,
-                     const std::string& prefix) {
-    const auto found = parent.find(name);
-    if (found == parent.end()) return;
-    if (!found->is_array()) throw InputError({path, 0, prefix + name}, "must be an array");
-    for (std::size_t i = 0; i < found->size(); ++i)
-        checkElement(path, (*found)[i], name, fmt::format("{}{}[{}]", prefix, name, i));
-}
-
-void checkTypes(const std::string& path, const json& root) {
-    for (const char* name : {"scenes", "nodes", "meshes", "cameras", "accessors", "bufferViews",
-                             "buffers", "materials", "textures", "images", "samplers"})
-        checkCollection(path, root, name, "");
-    const json& meshes = elements(root, "meshes");
-    for (std::size_t i = 0; i < meshes.size(); ++i)
-        checkCollection(path, meshes[i], "primitives", fmt::format("meshes[{}].", i));
-}
-
-void checkIndices(const std::string& path, const json& primitive, std::size_t accessors,
-                  const std::string& element) {
-    const auto found = primitive.find("indices");
-    if (found != primitive.end() && !(*found >= 0 && *found < accessors))
-        throw InputError({path, 0, element + ".indices"},
-                         fmt::format("accessors[{}] does not exist", found->dump()));
-}
-
-void checkAllIndices(const std::string& path, const json& root) {
-    const std::size_t accessors = elements(root, "accessors").size();
-    const json& meshes = elements(root, "meshes");
-    for (std::size_t m = 0; m < meshes.size(); ++m) {
-        const json& primitives = elements(meshes[m], "primitives");
-        for (std::size_t p = 0; p < primitives.size(); ++p)
-            checkIndices(path, primitives[p], accessors,
-                         fmt::format("meshes[{}].primitives[{}]", m, p));
+/// Checks that every "...Texture" of a material, in extensions too, refers to one.
+void checkTextures(const SourceLocation& where, const json& material, std::size_t textures) {
+    if (!material.is_object()) return;
+    for (const auto& [key, value] : material.items()) {
+        if (key == "extras" || !value.is_object()) continue;
+        const SourceLocation here{where.file, 0, where.element + "." + key};
+        const bool isTexture = key.ends_with("Texture");
+        if (isTexture && !value.contains("index"))
+            throw InputError(here, "has no index of a texture");
+        if (isTexture) checkReference(here, value["index"], "textures", textures);
+        checkTextures(here, value, textures);
     }
 }
 
-/// A number of an element that exists, else of nothing; 0 if it is not there.
-json numberOf(const json& elements, const json& index, const char* name) {
-    if (!index.is_number_unsigned() || index >= elements.size()) return 0;
-    return elements[index.get<std::size_t>()].value(name, json(0));
-}
+/// Checks the elements of the root's collections, and of arrays within them.
+class Checker {
+  public:
+    Checker(const std::string& path, const json& root) : path_(path), root_(root) {}
 
-/// tinygltf takes the address of an image in a buffer view before anybody looks where it is.
-void checkImageViews(const std::string& path, const json& root) {
-    const json &views = elements(root, "bufferViews"), &images = elements(root, "images");
-    for (std::size_t i = 0; i < images.size(); ++i) {
-        const json view = images[i].value("bufferView", json());
-        const json offset = numberOf(views, view, "byteOffset");
-        const json buffer = numberOf(views, view, "buffer");
-        if (!(offset >= 0) || offset > numberOf(elements(root, "buffers"), buffer, "byteLength"))
-            throw InputError(
-                {path, 0, fmt::format("images[{}]", i)},
-                fmt::format("bufferViews[{}] lies outside of its buffer", view.dump()));
+    void run() const {
+        for (const char* name :
+             {"scenes", "nodes", "meshes", "skins", "cameras", "accessors", "bufferViews",
+              "buffers", "materials", "textures", "images", "samplers"})
+            checkCollection(root_, name, "");
+        if (const auto scene = root_.find("scene"); scene != root_.end())
+            checkReference(at("scene"), *scene, "scenes", gltfElements(root_, "scenes").size());
     }
-}
+
+  private:
+    SourceLocation at(const std::string& element) const { return {path_, 0, element}; }
+
+    void checkCollection(const json& parent, const std::string& name,
+                         const std::string& prefix) const {
+        const auto found = parent.find(name);
+        if (found == parent.end()) return;
+        if (!found->is_array()) throw InputError(at(prefix + name), "must be an array");
+        for (std::size_t i = 0; i < found->size(); ++i)
+            checkElement((*found)[i], name, fmt::format("{}{}[{}]", prefix, name, i));
+    }
+
+    void checkElement(const json& value, const std::string& collection,
+                      const std::string& element) const {
+        if (!value.is_object()) throw InputError(at(element), "must be an object");
+        for (const Property& property : kProperties) {
+            const auto found = value.find(property.name);
+            if (property.collection == collection && found != value.end() &&
+                !property.isRight(*found))
+                throw InputError(at(element + "." + property.name),
+                                 fmt::format("must be {}", property.type));
+        }
+        for (const Reference& reference : kReferences) {
+            const auto found = value.find(reference.name);
+            if (reference.collection == collection && found != value.end())
+                checkReference(at(element + "." + reference.name), *found, reference.target,
+                               gltfElements(root_, reference.target).size());
+        }
+        if (collection == "meshes") checkCollection(value, "primitives", element + ".");
+        if (collection == "materials")
+            checkTextures(at(element), value, gltfElements(root_, "textures").size());
+    }
+
+    const std::string& path_;
+    const json& root_;
+};
 
 void checkVersion(const std::string& path, const json& root) {
     const SourceLocation where{path, 0, "asset"};
@@ -176,36 +209,14 @@ std::vector<std::string> names(const std::string& path, const json& root, const 
     return result;
 }
 
-std::string checkExtensions(const std::string& path, const json& root, ImportReport& report) {
+void checkExtensions(const std::string& path, const json& root, ImportReport& report) {
     for (const std::string& name : names(path, root, "extensionsRequired"))
         if (!kSupported.contains(name) && !isDispensable(name))
-            throw InputError({path, 0, "extensionsRequired"}, adviceFor(name));
-    std::string advice;
-    for (const std::string& name : names(path, root, "extensionsUsed")) {
-        if (!kSupported.contains(name) && name != "KHR_lights_punctual")
+            throw InputError({path, 0, "extensionsRequired"},
+                             name + " is not supported; export without it");
+    for (const std::string& name : names(path, root, "extensionsUsed"))
+        if (!kSupported.contains(name))
             warn(report, {path, 0, "extensionsUsed"}, name + " is not supported and left out");
-        if (kCompressions.contains(name)) advice = adviceFor(name);
-    }
-    return advice;
-}
-
-void checkBuffer(const SourceLocation& where, const json& buffer, bool mayBeBinaryChunk,
-                 std::size_t binaryBytes) {
-    const json length = buffer.value("byteLength", json());
-    if (!length.is_number() || length <= 0)
-        throw InputError(where, "byteLength must be a number above 0");
-    if (buffer.contains("uri")) return;
-    if (!mayBeBinaryChunk || binaryBytes == 0)
-        throw InputError(where, "has neither a uri nor the binary chunk of a GLB file");
-    if (length > binaryBytes)
-        throw InputError(where, fmt::format("announces {} bytes, but the binary chunk has {}",
-                                            length.dump(), binaryBytes));
-}
-
-void checkBuffers(const std::string& path, const json& root, std::size_t binaryBytes) {
-    const json& buffers = elements(root, "buffers");
-    for (std::size_t i = 0; i < buffers.size(); ++i)
-        checkBuffer({path, 0, fmt::format("buffers[{}]", i)}, buffers[i], i == 0, binaryBytes);
 }
 
 void checkSize(const std::string& path, std::string_view text) {
@@ -228,56 +239,76 @@ void checkSize(const std::string& path, std::string_view text) {
     }
 }
 
-std::uint64_t read32(const std::vector<std::uint8_t>& bytes, std::size_t offset) {
-    std::uint64_t value = 0;
+bool isGlb(const std::vector<std::uint8_t>& bytes) {
+    return bytes.size() >= 4 && std::equal(bytes.begin(), bytes.begin() + 4, "glTF");
+}
+
+std::uint32_t read32(std::span<const std::uint8_t> bytes, std::size_t offset) {
+    std::uint32_t value = 0;
     for (int i = 3; i >= 0; --i) value = (value << 8) | bytes[offset + i];
     return value;
 }
 
-/// The chunks of a GLB file, which all lie inside it.
+/// Cuts a chunk, each of a length, a type and its content, from the front.
+std::span<const std::uint8_t> takeChunk(const std::string& path,
+                                        std::span<const std::uint8_t>& rest) {
+    const std::size_t length = rest.size() < 8 ? 0 : read32(rest, 0);
+    if (rest.size() < 8 || length > rest.size() - 8)
+        throw InputError({path, 0, ""}, "truncated GLB file: a chunk ends after the file");
+    const auto chunk = rest.subspan(8, length);
+    rest = rest.subspan(8 + length);
+    return chunk;
+}
+
 GltfChunks glbChunks(const std::string& path, const std::vector<std::uint8_t>& bytes) {
+    constexpr std::uint32_t kJson = 0x4e4f534a, kBinary = 0x004e4942;
     const auto fail = [&](const std::string& message) { throw InputError({path, 0, ""}, message); };
-    if (bytes.size() < 20) fail("truncated GLB header");
-    if (read32(bytes, 4) != 2)
-        fail(fmt::format("GLB version {} is not supported; convert to glTF 2.0", read32(bytes, 4)));
-    if (read32(bytes, 8) > bytes.size()) fail("truncated GLB file");
-    const std::uint64_t jsonSize = read32(bytes, 12), jsonEnd = 20 + jsonSize;
-    if (jsonEnd > bytes.size()) fail("truncated JSON chunk");
-    const std::uint64_t binarySize = jsonEnd + 8 <= bytes.size() ? read32(bytes, jsonEnd) : 0;
-    if (binarySize > 0 && jsonEnd + 8 + binarySize > bytes.size()) fail("truncated binary chunk");
-    return {{reinterpret_cast<const char*>(bytes.data()) + 20, static_cast<std::size_t>(jsonSize)},
-            static_cast<std::size_t>(binarySize)};
+    if (bytes.size() < 12) fail("truncated GLB header");
+    if (const std::uint32_t version = read32(bytes, 4); version != 2)
+        fail(fmt::format("GLB version {} is not supported; convert to glTF 2.0", version));
+    const std::uint32_t length = read32(bytes, 8);
+    if (length > bytes.size()) fail("truncated GLB file");
+    if (length < 20) fail("a GLB file without a chunk");
+    auto rest = std::span(bytes).subspan(12, length - 12);
+    if (read32(rest, 4) != kJson) fail("the first chunk of a GLB file must be JSON");
+    const auto text = takeChunk(path, rest);
+    GltfChunks chunks{{reinterpret_cast<const char*>(text.data()), text.size()}, {}};
+    if (!rest.empty()) {
+        const bool isBinary = rest.size() >= 8 && read32(rest, 4) == kBinary;
+        const auto second = takeChunk(path, rest);
+        if (isBinary) chunks.binary = second;
+    }
+    return chunks;
 }
 
 }  // namespace
 
-bool isGlb(const std::vector<std::uint8_t>& bytes) {
-    return bytes.size() >= 4 && std::equal(bytes.begin(), bytes.begin() + 4, "glTF");
+const json& gltfElements(const json& parent, const char* collection) {
+    static const json kNone = json::array();
+    const auto found = parent.find(collection);
+    return found == parent.end() ? kNone : *found;
 }
 
 GltfChunks gltfChunks(const std::string& path, const std::vector<std::uint8_t>& bytes) {
     const GltfChunks chunks =
         isGlb(bytes) ? glbChunks(path, bytes)
-                     : GltfChunks{{reinterpret_cast<const char*>(bytes.data()), bytes.size()}};
+                     : GltfChunks{{reinterpret_cast<const char*>(bytes.data()), bytes.size()}, {}};
     checkSize(path, chunks.json);
     return chunks;
 }
 
-std::string checkGltfJson(const std::string& path, const GltfChunks& chunks, ImportReport& report) {
+json parseGltf(const std::string& path, std::string_view text, ImportReport& report) {
     json root;
     try {
-        root = json::parse(chunks.json);
+        root = json::parse(text);
     } catch (const json::exception& error) {
         throw InputError({path, 0, ""}, fmt::format("not a glTF file: {}", error.what()));
     }
     if (!root.is_object()) throw InputError({path, 0, ""}, "not a glTF file: no JSON object");
     checkVersion(path, root);
-    checkTypes(path, root);
-    std::string advice = checkExtensions(path, root, report);
-    checkBuffers(path, root, chunks.binaryBytes);
-    checkAllIndices(path, root);
-    checkImageViews(path, root);
-    return advice;
+    checkExtensions(path, root, report);
+    Checker(path, root).run();
+    return root;
 }
 
 }  // namespace vlf

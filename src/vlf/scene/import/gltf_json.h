@@ -1,34 +1,35 @@
 #pragma once
-// The container and the JSON of a glTF file, looked through before tinygltf reads them: it
-// descends into nested values without limit, leaves out properties of the wrong type silently
-// and fails on compressed files and missing data without saying why or where.
+// The container and the JSON of a glTF file, checked before anything is made of them: tinygltf
+// leaves out properties of the wrong type silently and descends into nested values without limit.
 
 #include "vlf/scene/import/import.h"
 
+#include <nlohmann/json.hpp>
+
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace vlf {
 
-/// True if the bytes begin like those of a GLB file.
-bool isGlb(const std::vector<std::uint8_t>& bytes);
-
 /// The parts of a file, within its bytes.
 struct GltfChunks {
     std::string_view json;
-    std::size_t binaryBytes = 0;  ///< of a GLB file's binary chunk; 0: there is none
+    std::span<const std::uint8_t> binary;  ///< of a GLB file's binary chunk; empty: there is none
 };
 
-/// Throws InputError if the chunks of a GLB file do not fit into it or the JSON is nested or larger
-/// than any sensible document.
+/// The parts of a .gltf or .glb file, told apart by content. Throws InputError if the chunks of a
+/// GLB file do not fit into it or the JSON is nested or larger than any sensible document.
 GltfChunks gltfChunks(const std::string& path, const std::vector<std::uint8_t>& bytes);
 
-/// Checks syntax, version, required extensions, buffers, and the types of the properties that
-/// geometry depends on; throws InputError. Extensions that are left out are reported. Returns
-/// advice for the case that reading fails because of a compression that is not marked as required;
-/// may be empty.
-std::string checkGltfJson(const std::string& path, const GltfChunks& chunks, ImportReport& report);
+/// Parses the document. Checks its version, required extensions, the types of the properties that
+/// are read, and that every index refers to something; throws InputError with the element.
+/// Extensions that are left out are reported.
+nlohmann::json parseGltf(const std::string& path, std::string_view text, ImportReport& report);
+
+/// An array of the root or of one of its elements; empty if it is not there.
+const nlohmann::json& gltfElements(const nlohmann::json& parent, const char* collection);
 
 }  // namespace vlf

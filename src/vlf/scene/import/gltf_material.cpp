@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <limits>
 #include <map>
+#include <string_view>
 #include <tuple>
 
 namespace vlf {
@@ -91,6 +92,9 @@ Surface specularGlossiness(const tinygltf::Value& extension) {
         const tinygltf::Value& texture = extension.Get("diffuseTexture");
         surface.baseTexture.index = wholeNumber(texture, "index", -1);
         surface.baseTexture.texCoord = wholeNumber(texture, "texCoord", 0);
+        if (texture.Has("extensions") && texture.Get("extensions").IsObject())
+            surface.baseTexture.extensions =
+                texture.Get("extensions").Get<tinygltf::Value::Object>();
     }
     return surface;
 }
@@ -116,6 +120,13 @@ glm::dvec2 meanGreenBlue(const DecodedImage& image) {
     return image.srgb8.empty() ? glm::dvec2(1) : sum * (4.0 / (255.0 * image.srgb8.size()));
 }
 
+bool isKtx2(const GltfBytes& bytes) {
+    constexpr std::string_view kStart = "\xabKTX 20\xbb";
+    return bytes.size() >= kStart.size() &&
+           std::equal(kStart.begin(), kStart.end(), bytes.begin(),
+                      [](char a, std::uint8_t b) { return static_cast<std::uint8_t>(a) == b; });
+}
+
 class MaterialBuilder {
   public:
     MaterialBuilder(Scene& scene, const GltfFile& file, ImportReport& report)
@@ -133,7 +144,6 @@ class MaterialBuilder {
             warn(report_, where, "specular-glossiness: the specular part is left out");
         if (m.normalTexture.index >= 0)
             warn(report_, where, "normal maps are not supported and left out");
-        result.uv = sharedMapping(surface.baseTexture, m.emissiveTexture, where);
         Material material;
         material.name = m.name;
         setReflectance(material, surface, where);
@@ -143,6 +153,12 @@ class MaterialBuilder {
             static_cast<float>(extensionNumber(m.extensions, "KHR_materials_emissive_strength",
                                                "emissiveStrength", 1));
         material.emitsBothSides = m.doubleSided && material.isEmitter();
+        const GltfUvMapping baseUv = uvMapping(surface.baseTexture),
+                            emissionUv = uvMapping(m.emissiveTexture);
+        const bool emissionAlone = material.diffuseTexture < 0 && material.emissionTexture >= 0;
+        result.uv = emissionAlone ? emissionUv : baseUv;
+        if (material.emissionTexture >= 0 && !(emissionUv == result.uv))
+            result.emissionUv = emissionUv;
         result.index = static_cast<std::uint32_t>(scene_.materials.size());
         scene_.materials.push_back(std::move(material));
         return result;
@@ -154,19 +170,6 @@ class MaterialBuilder {
             extensionNumber(m.extensions, "KHR_materials_transmission", "transmissionFactor", 0);
         const double alpha = m.alphaMode == "BLEND" ? surface.alpha : 1;
         return static_cast<float>(std::min(alpha, 1 - transmission));
-    }
-
-    /// One mapping serves all textures of a material: that of the first.
-    GltfUvMapping sharedMapping(const tinygltf::TextureInfo& base,
-                                const tinygltf::TextureInfo& emissive,
-                                const SourceLocation& where) {
-        if (base.index < 0) return uvMapping(emissive);
-        const GltfUvMapping mapping = uvMapping(base);
-        if (emissive.index >= 0 && !(uvMapping(emissive) == mapping))
-            warn(report_, where,
-                 "the emissive texture has other texture coordinates than the base "
-                 "colour; those of the base colour are used for both");
-        return mapping;
     }
 
     void setReflectance(Material& material, Surface surface, const SourceLocation& where) {
@@ -187,53 +190,57 @@ class MaterialBuilder {
             material.roughness = widthOfRoughness(static_cast<float>(surface.roughness));
     }
 
-    const tinygltf::Texture& checkedTexture(int index, const SourceLocation& where) const {
-        if (static_cast<std::size_t>(index) >= file_.model.textures.size())
-            throw InputError(where, fmt::format("textures[{}] does not exist", index));
-        return file_.model.textures[index];
+    /// The image of a texture: the one in a format that every reader knows, if there is such; -1:
+    /// none.
+    int imageOf(const tinygltf::Texture& texture, const SourceLocation& where) const {
+        if (texture.source >= 0) return texture.source;
+        for (const char* extension : {"EXT_texture_webp", "KHR_texture_basisu"}) {
+            const double source = extensionNumber(texture.extensions, extension, "source", -1);
+            if (source >= static_cast<double>(file_.images.size()))
+                throw InputError(where, fmt::format("images[{}] does not exist", source));
+            if (source >= 0) return static_cast<int>(source);
+        }
+        return -1;
     }
 
-    /// Decodes the image of a texture; nothing (with a warning) if that is not possible.
-    std::optional<DecodedImage> decode(const tinygltf::Texture& texture,
-                                       const SourceLocation& where) {
-        const auto& images = file_.model.images;
-        if (texture.source < 0) {
-            warn(report_, where, "a texture has no PNG or JPEG image; its factor alone is used");
+    std::string nameOf(int image) const {
+        const auto& [name, uri, bufferView] = file_.images[image];
+        const bool isFile = bufferView < 0 && !uri.starts_with("data:");
+        return fmt::format("images[{}] '{}'", image, isFile ? uri : name);
+    }
+
+    /// Decodes an image; nothing (with a warning) if that is not possible. -1: a texture has none.
+    std::optional<DecodedImage> decode(int image, const SourceLocation& where) {
+        const auto warnOf = [&](const std::string& fault) {
+            warn(report_, where, fault + "; its factor alone is used");
             return std::nullopt;
-        }
-        if (static_cast<std::size_t>(texture.source) >= images.size())
-            throw InputError(where, fmt::format("images[{}] does not exist", texture.source));
-        const std::vector<std::uint8_t> bytes = imageBytes(file_, texture.source);
-        if (bytes.empty()) {
-            warn(report_, where,
-                 fmt::format("image '{}' not found; its factor alone is used",
-                             images[texture.source].uri));
-            return std::nullopt;
-        }
+        };
+        if (image < 0) return warnOf("a texture has no image");
+        const GltfBytes bytes = imageBytes(file_, image);
+        if (bytes.empty()) return warnOf(nameOf(image) + " not found");
+        if (isKtx2(bytes))
+            return warnOf(nameOf(image) + ": KTX2 is not decoded, export PNG or JPEG");
         try {
-            return decodeImage(bytes, fmt::format("images[{}]", texture.source));
+            return decodeImage(bytes, nameOf(image));
         } catch (const Error& error) {
-            warn(report_, where, fmt::format("{}; its factor alone is used", error.what()));
-            return std::nullopt;
+            return warnOf(error.what());
         }
     }
 
     /// Index into Scene::textures; -1: none.
     int loadTexture(int index, const SourceLocation& where) {
         if (index < 0) return -1;
-        const tinygltf::Texture& texture = checkedTexture(index, where);
-        const bool hasSampler = texture.sampler >= 0 && static_cast<std::size_t>(texture.sampler) <
-                                                            file_.model.samplers.size();
+        const tinygltf::Texture& texture = file_.model.textures[index];
         const tinygltf::Sampler sampler =
-            hasSampler ? file_.model.samplers[texture.sampler] : tinygltf::Sampler{};
+            texture.sampler < 0 ? tinygltf::Sampler{} : file_.model.samplers[texture.sampler];
         const Wrap wrapU = wrapOf(sampler.wrapS), wrapV = wrapOf(sampler.wrapT);
-        const auto key = std::make_tuple(texture.source, wrapU, wrapV);
+        const int source = imageOf(texture, where);
+        const auto key = std::make_tuple(source, wrapU, wrapV);
         if (const auto known = textures_.find(key); known != textures_.end()) return known->second;
         int result = -1;
-        if (auto image = decode(texture, where)) {
+        if (auto image = decode(source, where)) {
             result = static_cast<int>(scene_.textures.size());
-            scene_.textures.push_back(toTexture(std::move(*image),
-                                                file_.model.images[texture.source].name, wrapU,
+            scene_.textures.push_back(toTexture(std::move(*image), file_.images[source].name, wrapU,
                                                 wrapV, report_, where));
         }
         return textures_[key] = result;
@@ -241,11 +248,11 @@ class MaterialBuilder {
 
     glm::dvec2 meanRoughnessMetallic(const tinygltf::TextureInfo& info,
                                      const SourceLocation& where) {
-        const tinygltf::Texture& texture = checkedTexture(info.index, where);
-        const auto known = means_.find(texture.source);
+        const int source = imageOf(file_.model.textures[info.index], where);
+        const auto known = means_.find(source);
         if (known != means_.end()) return known->second;
-        const auto image = decode(texture, where);
-        return means_[texture.source] = image ? meanGreenBlue(*image) : glm::dvec2(1);
+        const auto image = decode(source, where);
+        return means_[source] = image ? meanGreenBlue(*image) : glm::dvec2(1);
     }
 
     Scene& scene_;

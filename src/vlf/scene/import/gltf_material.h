@@ -8,7 +8,7 @@
 
 namespace vlf {
 
-/// Which texture coordinates a material's textures read: uv' = offset + scaleRotate * uv, in the
+/// Which texture coordinates a texture reads: uv' = offset + scaleRotate * uv, in the
 /// coordinates of glTF (v down).
 struct GltfUvMapping {
     int set = 0;  ///< n of TEXCOORD_n
@@ -21,13 +21,13 @@ struct GltfUvMapping {
 /// What a material of the file stands for in the scene.
 struct GltfMaterial {
     std::optional<std::uint32_t>
-        index;  ///< into Scene::materials; nothing: its surfaces are left out
-    GltfUvMapping uv;
+        index;         ///< into Scene::materials; nothing: its surfaces are left out
+    GltfUvMapping uv;  ///< of its textures
+    std::optional<GltfUvMapping> emissionUv;  ///< of the emission texture, if it has another
 };
 
 /// Adds the materials of the file and their textures to the scene. The result runs parallel to the
-/// file's materials. Throws InputError for references to textures that do not exist; images that
-/// are missing or cannot be decoded are reported.
+/// file's materials. Images that are missing or cannot be decoded are reported.
 std::vector<GltfMaterial> addGltfMaterials(Scene& scene, const GltfFile& file,
                                            ImportReport& report);
 

@@ -32,6 +32,15 @@ std::string joined(const std::vector<std::string>& paths) {
     return all;
 }
 
+void warnOfDropped(ImportReport& report, const SourceLocation& where) {
+    if (report.degenerateTriangles > 0)
+        warn(report, where,
+             fmt::format("{} triangles without area are dropped", report.degenerateTriangles));
+    if (report.duplicateTriangles > 0)
+        warn(report, where,
+             fmt::format("{} triangles that repeat others are dropped", report.duplicateTriangles));
+}
+
 }  // namespace
 
 Scene importScene(const std::vector<std::string>& paths, ImportReport& report) {
@@ -42,6 +51,7 @@ Scene importScene(const std::vector<std::string>& paths, ImportReport& report) {
         append(scene, part);
     }
     cleanScene(scene, report);
+    warnOfDropped(report, {joined(paths), 0, ""});
     if (scene.triangles.empty())
         throw InputError({joined(paths), 0, ""},
                          "no triangle with an area, so there is nothing to light");
