@@ -257,7 +257,8 @@ void MirrorViewTracer::arrive(const Path& path, const Ray& ray, const Hit& hit,
                               RandomStream& random) {
     const std::uint32_t chart = hit ? chartHit(ray, hit) : kNoChart;
     if (chart == kNoChart && path.first && cells_[path.cell].guard) return restart(path, ray);
-    if (!hit && path.unfolding && !(path.length == 0 && isHidden(ray.origin)))
+    const bool rough = !distances_.empty();
+    if (!hit && path.unfolding && (rough || !(path.length == 0 && isHidden(ray.origin))))
         noteDistance(path, longest_);
     if (chart == kNoChart) return;
     const bool front = glm::dot(areaVector(scene_, hit.triangle), ray.direction) < 0;

@@ -12,6 +12,10 @@ using test::Document;
 /// A few points of a triangle, its corners among them.
 const std::vector<Vec2> kPoints{{0, 0}, {1, 0}, {0, 1}, {0.5f, 0.5f}, {0.3f, 0.1f}, {0.2f, 0.7f}};
 
+/// What the texels of a sheet, which lie otherwise than the picture's, may blur a texel from its
+/// edges.
+constexpr float kBlur = 0.025f;
+
 class ImportGltfPaint : public test::GltfTest {
   protected:
     /// Calls check(position, reflectance, radiance) at points of all triangles.
@@ -104,7 +108,7 @@ TEST_F(ImportGltfPaint, MultipliesTexturesByColours) {
     const Scene scene = import(document);
     atPoints(scene, [](const Vec3& p, const Vec3& reflectance, const Vec3&) {
         if (isAtEdge(p.x)) return;
-        test::expectNear(reflectance, p.y * (p.x < 0.5f ? Vec3(1, 0, 0) : Vec3(0, 1, 0)), 0.01f);
+        test::expectNear(reflectance, p.y * (p.x < 0.5f ? Vec3(1, 0, 0) : Vec3(0, 1, 0)), kBlur);
     });
 }
 
@@ -141,8 +145,8 @@ TEST_F(ImportGltfPaint, GivesTheEmissionTextureItsOwnCoordinates) {
     const auto expectEmission = [&](auto isRed) {
         atPoints(import(document), [&](const Vec3& p, const Vec3& reflectance, const Vec3& e) {
             if (isAtEdge(p.x) || isAtEdge(p.y)) return;
-            test::expectNear(reflectance, p.x < 0.5f ? Vec3(1, 0, 0) : Vec3(0, 1, 0), 0.01f);
-            test::expectNear(e, isRed(p) ? Vec3(1, 0, 0) : Vec3(0, 1, 0), 0.01f);
+            test::expectNear(reflectance, p.x < 0.5f ? Vec3(1, 0, 0) : Vec3(0, 1, 0), kBlur);
+            test::expectNear(e, isRed(p) ? Vec3(1, 0, 0) : Vec3(0, 1, 0), kBlur);
         });
         EXPECT_TRUE(report_.warnings.empty());
     };
@@ -167,7 +171,7 @@ TEST_F(ImportGltfPaint, NeedsNoPaintForAnEmissionTextureAlone) {
     const Scene scene = import(document);
     EXPECT_EQ(scene.textures.size(), 1u);
     atPoints(scene, [](const Vec3&, const Vec3&, const Vec3& e) {
-        test::expectNear(e, {1, 0, 0}, 0.01f);
+        test::expectNear(e, {1, 0, 0}, kBlur);
     });
 }
 
