@@ -4,6 +4,7 @@
 #include "vlf/image/exr_header.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <cstring>
 #include <stdexcept>
 #include <utility>
@@ -64,12 +65,14 @@ class MemoryWriter : public Imf::OStream {
 
 constexpr const char* kRgb[3] = {"R", "G", "B"};
 
-/// One channel of the image; pixel (0, 0) of the image is at the corner of the data window.
+/// One channel of the image; pixel (0, 0) of the image is at the corner of the data window. OpenEXR
+/// wants the address of the window's origin, which need not be one of the image's.
 Imf::Slice sliceOf(const Image& image, int channel, const Imath::V2i& corner) {
     const std::ptrdiff_t first = corner.x + std::ptrdiff_t{corner.y} * image.width;
-    const Vec3* origin = image.pixels.data() - first;
-    auto* base = reinterpret_cast<const char*>(origin) + channel * sizeof(float);
-    return Imf::Slice(Imf::FLOAT, const_cast<char*>(base), sizeof(Vec3),
+    const auto address = reinterpret_cast<std::uintptr_t>(image.pixels.data()) -
+                         static_cast<std::uintptr_t>(first) * sizeof(Vec3) +
+                         static_cast<std::uintptr_t>(channel) * sizeof(float);
+    return Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(address), sizeof(Vec3),
                       sizeof(Vec3) * static_cast<std::size_t>(image.width), 1, 1, 0.0);
 }
 

@@ -82,6 +82,11 @@ class HeaderReader {
         HeaderReader window(value, name_);
         const std::int64_t left = window.takeInt(), top = window.takeInt();
         const std::int64_t right = window.takeInt(), bottom = window.takeInt();
+        constexpr std::int64_t kFarthest = 1
+                                           << 24;  // from the origin; addresses are counted from it
+        if (std::max({std::abs(left), std::abs(top), std::abs(right), std::abs(bottom)}) >
+            kFarthest)
+            fail();
         requireImageSize(right - left + 1, bottom - top + 1, fileBytes_, name_);
     }
 

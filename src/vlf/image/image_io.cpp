@@ -33,11 +33,14 @@ bool startsWith(Bytes bytes, Bytes start) {
     return bytes.size() >= start.size() && std::equal(start.begin(), start.end(), bytes.begin());
 }
 
-/// Formats that stb reads but whose decoders are not trusted with damaged files.
+/// What stb reads but is not trusted with: formats whose decoders do not stand damaged files, and
+/// JPEGs behind fill bytes, whose header would not be looked through.
 bool isRefused(Bytes bytes) {
     constexpr std::uint8_t kGif[] = {'G', 'I', 'F'}, kPsd[] = {'8', 'B', 'P', 'S'},
-                           kPic[] = {0x53, 0x80, 0xf6, 0x34};
-    return startsWith(bytes, kGif) || startsWith(bytes, kPsd) || startsWith(bytes, kPic);
+                           kPic[] = {0x53, 0x80, 0xf6, 0x34}, kFill[] = {0xff, 0xff}, kPnm5[] = {'P', '5'},
+                           kPnm6[] = {'P', '6'};
+    return startsWith(bytes, kGif) || startsWith(bytes, kPsd) || startsWith(bytes, kPic) ||
+           startsWith(bytes, kFill) || startsWith(bytes, kPnm5) || startsWith(bytes, kPnm6);
 }
 
 constexpr std::uint8_t kPng[] = {0x89, 'P', 'N', 'G', 0x0d, 0x0a, 0x1a, 0x0a};

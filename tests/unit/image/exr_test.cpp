@@ -181,6 +181,20 @@ TEST(Exr, RejectsASizeThatTheFileCannotHold) {
     EXPECT_NE(messageOf(folder.path("b.exr")), "");
 }
 
+TEST(Exr, RejectsADataWindowFarFromTheOrigin) {
+    const test::TemporaryFolder folder;
+    writeExr(folder.path("a.exr"), Image(4, 4));
+    std::vector<std::uint8_t> bytes = readFile(folder.path("a.exr"));
+    const std::string name = "dataWindow";
+    const auto window = std::search(bytes.begin(), bytes.end(), name.begin(), name.end());
+    ASSERT_NE(window, bytes.end());
+    constexpr std::int32_t kFar = 0x2c2c2c2c;
+    const std::int32_t corners[4] = {kFar, kFar, kFar + 3, kFar + 3};
+    std::memcpy(&*window + name.size() + 1 + sizeof("box2i") + 4, corners, sizeof corners);
+    writeFile(folder.path("b.exr"), bytes);
+    EXPECT_NE(messageOf(folder.path("b.exr")).find("the header is not valid"), std::string::npos);
+}
+
 TEST(Exr, RejectsAnAttributeLargerThanTheFile) {
     const test::TemporaryFolder folder;
     writeExr(folder.path("a.exr"), Image(4, 4), {{"note", "text"}});

@@ -129,6 +129,14 @@ TEST(ImageFile, RejectsEveryTruncatedPng) {
         EXPECT_THROW(decodeImage({png.data(), size}, "cut"), InputError) << size << " bytes";
 }
 
+TEST(ImageFile, RejectsAJpegBehindFillBytes) {
+    const test::TemporaryFolder folder;
+    Bytes jpeg = jpegBytes(folder);
+    EXPECT_NO_THROW(decodeImage(jpeg, "whole"));
+    jpeg.insert(jpeg.begin(), 2, 0xff);
+    EXPECT_THROW(decodeImage(jpeg, "filled"), InputError);
+}
+
 TEST(ImageFile, RejectsATruncatedJpeg) {
     const test::TemporaryFolder folder;
     const Bytes jpeg = jpegBytes(folder);
