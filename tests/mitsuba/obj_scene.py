@@ -133,13 +133,17 @@ def define_diffuse_mirror():
 
 
 def rough(material):
-    """Facets of a constant reflectance, as a half of the blend with twice the diffuse part."""
-    return {"type": "twosided", "bsdf": {
-        "type": "blendbsdf", "weight": 0.5,
-        "diffuse": {"type": "diffuse", "reflectance": textured(material, "Kd", 2)},
-        "mirror": {"type": "roughconductor", "material": "none", "distribution": "ggx",
-                   "alpha": material.roughness ** 2,
-                   "specular_reflectance": textured(material, "Ks", 2)}}}
+    """Facets of a constant reflectance, blended with what is diffuse, each scaled by its share."""
+    kd, ks = material.colour("Kd").max(), material.colour("Ks").max()
+    share = ks / (kd + ks)
+    mirror = {"type": "roughconductor", "material": "none", "distribution": "ggx",
+              "alpha": material.roughness ** 2,
+              "specular_reflectance": textured(material, "Ks", 1 / share)}
+    if kd == 0:
+        return {"type": "twosided", "bsdf": mirror}
+    diffuse = {"type": "diffuse", "reflectance": textured(material, "Kd", 1 / (1 - share))}
+    return {"type": "twosided", "bsdf": {"type": "blendbsdf", "weight": float(share),
+                                         "diffuse": diffuse, "mirror": mirror}}
 
 
 def bsdf(material):
