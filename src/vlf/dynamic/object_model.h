@@ -28,8 +28,8 @@ class ObjectModel {
   public:
     static constexpr int kMaxSubdivision = 3;
 
-    /// `scene` is any imported scene; its cameras are ignored. Throws InputError if it has no
-    /// triangle.
+    /// `scene` is any imported scene; its cameras are ignored, its rough mirrors reflect diffusely
+    /// (makeGlossDiffuse). Throws InputError if it has no triangle.
     explicit ObjectModel(Scene scene);
 
     const Scene& scene() const { return base_->scene; }

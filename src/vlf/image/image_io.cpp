@@ -45,8 +45,8 @@ bool isRefused(Bytes bytes) {
 
 constexpr std::uint8_t kPng[] = {0x89, 'P', 'N', 'G', 0x0d, 0x0a, 0x1a, 0x0a};
 
-/// Bits of a pixel by the header of a PNG: its depth times the channels of its colour type. stb takes
-/// what is cut off as zeros.
+/// Bits of a pixel by the header of a PNG: its depth times the channels of its colour type. stb
+/// takes what is cut off as zeros.
 int pngBitsPerPixel(Bytes png) {
     constexpr std::size_t kDepth = 24, kColourType = 25;
     constexpr std::array<int, 7> kChannels{1, 1, 3, 1, 2, 1, 4};

@@ -2,6 +2,7 @@
 
 #include "vlf/math/microfacet.h"
 #include "vlf/propagate/ray_gather.h"
+#include "vlf/propagate/smooth_views.h"
 
 #include <algorithm>
 #include <utility>
@@ -13,9 +14,7 @@ namespace {
 constexpr float kMinThroughput = 1e-4f;
 constexpr float kMinCosine = 0.05f;
 constexpr float kGrazing = 1e-4f;
-constexpr float kInset = 1e-3f;     // of the way to the middle of a triangle
-constexpr float kSmoothing = 0.4f;  // radius of the mean over cells, of the width of the lobe
-constexpr int kMaxReach = 8;        // cells
+constexpr float kInset = 1e-3f;  // of the way to the middle of a triangle
 
 /// About the geometric normal `side` where the shading normal would send the ray into the surface.
 Vec3 reflectAbove(const Vec3& direction, const Vec3& normal, const Vec3& side) {
@@ -189,11 +188,6 @@ Vec3 MirrorViewTracer::diffuseRadiance(const Arrival& at) const {
     return diffuseReflectance(scene_, at.material, at.uv) * irradiance / kPi;
 }
 
-Vec3 MirrorViewTracer::emission(const Arrival& at) const {
-    const bool emits = at.material.isEmitter() && (at.front || at.material.emitsBothSides);
-    return emits ? emittedRadiance(scene_, at.material, at.uv) : Vec3(0);
-}
-
 void MirrorViewTracer::reflect(Path path, const Vec3& direction, const Arrival& at,
                                RandomStream& random) {
     path.throughput *= mirrorReflectance(scene_, at.material, at.uv);
@@ -271,51 +265,19 @@ void MirrorViewTracer::arrive(const Path& path, const Ray& ray, const Hit& hit,
     Path next = path;
     next.length += std::max(hit.t, rays_.epsilon());
     if (path.unfolding) noteDistance(path, next.length);
-    views_[path.cell].radiance +=
-        path.throughput * (diffuseRadiance(at) + emitterWeight(path, ray, hit) * emission(at));
+    Vec3 radiance = diffuseRadiance(at);
+    if (at.material.isEmitter() && (at.front || at.material.emitsBothSides))
+        radiance += emitterWeight(path, ray, hit) * emittedRadiance(scene_, at.material, at.uv);
+    views_[path.cell].radiance += path.throughput * radiance;
     if (at.material.isMirror()) reflect(next, ray.direction, at, random);
 }
 
-/// Means over neighbouring cells, of noise: as far about each as a part of its lobe is wide at the
-/// distance of what it sees, and where the mirror faces alike.
 void MirrorViewTracer::smooth(float roughness) {
-    if (cells_.empty()) return;
-    const auto [x0, x1] = std::minmax_element(
-        cells_.begin(), cells_.end(), [](const auto& a, const auto& b) { return a.x < b.x; });
-    const auto [y0, y1] = std::minmax_element(
-        cells_.begin(), cells_.end(), [](const auto& a, const auto& b) { return a.y < b.y; });
-    const int left = x0->x, top = y0->y, width = x1->x - left + 1, height = y1->y - top + 1;
-    std::vector<std::int32_t> at(static_cast<std::size_t>(width) * height, -1);
-    std::vector<Vec3> normals(cells_.size());
-    for (std::size_t i = 0; i < cells_.size(); ++i) {
-        at[static_cast<std::size_t>(cells_[i].y - top) * width + cells_[i].x - left] =
-            static_cast<std::int32_t>(i);
-        normals[i] = mirrorNormal(scene_, cells_[i].triangle, cells_[i].barycentric,
-                                  sideNormal(scene_, cells_[i].triangle, cells_[i].front), false);
-    }
-    const std::vector<MirrorView> noisy = views_;
-    for (std::size_t i = 0; i < cells_.size(); ++i) {
-        if (noisy[i].distance <= 0) continue;
-        const float radius = kSmoothing * roughness * noisy[i].distance / cellSize_;
-        const int reach = std::min(kMaxReach, static_cast<int>(2 * radius));
-        if (reach == 0) continue;
-        Vec3 sum(0);
-        float weights = 0, nearness = 0;
-        for (int y = std::max(cells_[i].y - reach, top);
-             y <= std::min(cells_[i].y + reach, top + height - 1); ++y)
-            for (int x = std::max(cells_[i].x - reach, left);
-                 x <= std::min(cells_[i].x + reach, left + width - 1); ++x) {
-                const std::int32_t j = at[static_cast<std::size_t>(y - top) * width + x - left];
-                if (j < 0 || noisy[j].distance <= 0) continue;
-                const Vec2 away = Vec2(x - cells_[i].x, y - cells_[i].y) / radius;
-                const Vec3 turned = (normals[j] - normals[i]) / (kSmoothing * roughness);
-                const float w = std::exp(-0.5f * (glm::dot(away, away) + glm::dot(turned, turned)));
-                sum += w * noisy[j].radiance;
-                nearness += w / noisy[j].distance;
-                weights += w;
-            }
-        views_[i] = {sum / weights, weights / nearness};
-    }
+    std::vector<Vec3> normals;
+    for (const MirrorCell& c : cells_)
+        normals.push_back(mirrorNormal(scene_, c.triangle, c.barycentric,
+                                       sideNormal(scene_, c.triangle, c.front), false));
+    smoothViews(views_, cells_, normals, roughness, cellSize_);
 }
 
 void MirrorViewTracer::advance(RandomStream& random) {
@@ -347,11 +309,13 @@ const std::vector<MirrorView>& MirrorViewTracer::trace(std::span<const MirrorCel
     cells_ = cells;
     toEye_ = toEye;
     distances_.clear();
-    const Material* glossy = !cells.empty() && scene_.material(cells[0].triangle).isGlossy()
-                                 ? &scene_.material(cells[0].triangle)
-                                 : nullptr;
-    if (glossy)
-        startRough(glossy->roughness, random);
+    if (cells.empty()) {
+        views_.clear();
+        return views_;
+    }
+    const Material& material = scene_.material(cells.front().triangle);
+    if (material.isGlossy())
+        startRough(material.roughness, random);
     else
         start(planar);
     for (int step = 0; step <= kMaxReflections && !rayQueue_.empty(); ++step) advance(random);
@@ -359,7 +323,7 @@ const std::vector<MirrorView>& MirrorViewTracer::trace(std::span<const MirrorCel
     for (std::size_t i = 0; i < distances_.size(); ++i)
         if (distances_[i].count > 0)
             views_[i].distance = static_cast<float>(distances_[i].count) / distances_[i].inverseSum;
-    if (glossy) smooth(glossy->roughness);
+    if (material.isGlossy()) smooth(material.roughness);
     if (!planar) formImages();
     for (MirrorView& v : views_) v.distance = std::min(v.distance, longest_);
     return views_;

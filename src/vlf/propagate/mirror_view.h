@@ -98,7 +98,6 @@ class MirrorViewTracer {
     void arrive(const Path& path, const Ray& ray, const Hit& hit, RandomStream& random);
     void noteDistance(const Path& path, float distance);
     Vec3 diffuseRadiance(const Arrival& at) const;
-    Vec3 emission(const Arrival& at) const;
     void reflect(Path path, const Vec3& direction, const Arrival& at, RandomStream& random);
     void smooth(float roughness);
     void formImages();

@@ -1,9 +1,9 @@
 #pragma once
 // The sides of triangles by what is drawn in one call.
 
+#include "vlf/field/chart.h"
 #include "vlf/render/gl/room_geometry.h"
 #include "vlf/scene/scene.h"
-#include "vlf/field/chart.h"
 
 #include <cstdint>
 #include <span>

@@ -16,8 +16,8 @@ Texture toTexture(DecodedImage image, const std::string& name, Wrap wrapU, Wrap 
                   ImportReport& report, const SourceLocation& where);
 
 /// Width of the GGX lobe (Material::roughness) that is like a Phong lobe of this exponent, and like
-/// a perceptual roughness (glTF, Pr of MTL). B. Walter et al., EGSR 2007; B. Burley, "Physically-based
-/// shading at Disney", 2012.
+/// a perceptual roughness (glTF, Pr of MTL). B. Walter et al., EGSR 2007; B. Burley,
+/// "Physically-based shading at Disney", 2012.
 float widthOfExponent(float exponent);
 float widthOfRoughness(float roughness);
 
