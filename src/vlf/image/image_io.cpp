@@ -4,7 +4,7 @@
 #include "vlf/base/file.h"
 #include "vlf/image/exr.h"
 #include "vlf/image/image_size.h"
-#include "vlf/image/jpeg_header.h"
+#include "vlf/image/jpeg.h"
 #include "vlf/image/radiance_hdr.h"
 #include "vlf/image/srgb.h"
 #include "vlf/image/webp.h"
@@ -34,7 +34,7 @@ bool startsWith(Bytes bytes, Bytes start) {
 }
 
 /// What stb reads but is not trusted with: formats whose decoders do not stand damaged files, and
-/// JPEGs behind fill bytes, whose header would not be looked through.
+/// JPEGs behind fill bytes.
 bool isRefused(Bytes bytes) {
     constexpr std::uint8_t kGif[] = {'G', 'I', 'F'}, kPsd[] = {'8', 'B', 'P', 'S'},
                            kPic[] = {0x53, 0x80, 0xf6, 0x34}, kFill[] = {0xff, 0xff}, kPnm5[] = {'P', '5'},
@@ -55,9 +55,8 @@ int pngBitsPerPixel(Bytes png) {
     return std::max<int>(1, png[kDepth]) * (type < kChannels.size() ? kChannels[type] : 1);
 }
 
-/// Most pixels that a byte of a file may stand for. Deflate yields at most 1032 bytes per byte; a
-/// JPEG has a bit at least for a block of 8 x 8 pixels, of which components of different sampling
-/// share half; no other format comes near.
+/// Most pixels that a byte of a file may stand for. Deflate yields at most 1032 bytes per byte; no
+/// other format comes near.
 double mostPixelsPerByte(Bytes bytes) {
     return startsWith(bytes, kPng) ? 1032.0 * 8 / pngBitsPerPixel(bytes) : 1024;
 }
@@ -67,19 +66,12 @@ template <class AnyImage>
 void readSize(Bytes bytes, const std::string& name, AnyImage& image) {
     int channels = 0;
     if (bytes.size() > INT_MAX) throw InputError(name + ": image files over 2 GB are not read");
-    if (isJpeg(bytes)) checkJpegHeader(bytes, name);
     if (isRefused(bytes) || !stbi_info_from_memory(bytes.data(), static_cast<int>(bytes.size()),
                                                    &image.width, &image.height, &channels))
         throw InputError(
             name +
             ": not an image that can be read (EXR, PNG, JPEG, HDR, TGA, BMP; of textures, WebP)");
     requireImageSize(image.width, image.height, bytes.size(), name, mostPixelsPerByte(bytes));
-}
-
-bool hasJpegEnd(Bytes bytes) {
-    constexpr std::uint8_t kEnd[] = {0xff, 0xd9};
-    const auto end = std::find_end(bytes.begin(), bytes.end(), std::begin(kEnd), std::end(kEnd));
-    return end != bytes.end();
 }
 
 /// Follows the chunks of a PNG, each of a length, a type, data and a checksum, up to IEND.
@@ -96,11 +88,9 @@ bool hasAllPngChunks(Bytes bytes) {
     return false;
 }
 
-/// stb fills the rest of a JPEG that was cut off with grey, and takes memory for what the chunk of
-/// a PNG claims to hold.
+/// stb takes memory for what the chunk of a PNG claims to hold.
 void requireWholeFile(Bytes bytes, const std::string& name) {
-    if ((isJpeg(bytes) && !hasJpegEnd(bytes)) ||
-        (startsWith(bytes, kPng) && !hasAllPngChunks(bytes)))
+    if (startsWith(bytes, kPng) && !hasAllPngChunks(bytes))
         throw InputError(name + ": damaged image: the file ends early");
 }
 
@@ -120,6 +110,16 @@ std::vector<Vec3> toVectors(const T* values, std::size_t pixels, Decode decode) 
     for (std::size_t i = 0; i < pixels; ++i)
         result[i] = {decode(values[3 * i]), decode(values[3 * i + 1]), decode(values[3 * i + 2])};
     return result;
+}
+
+/// Linear values of sRGB-encoded RGBA; alpha is left out.
+Image linearImage(const DecodedImage& decoded) {
+    Image image(decoded.width, decoded.height);
+    const std::uint8_t* rgba = decoded.srgb8.data();
+    for (std::size_t i = 0; i < image.pixels.size(); ++i, rgba += 4)
+        image.pixels[i] = {linearFromSrgb8(rgba[0]), linearFromSrgb8(rgba[1]),
+                           linearFromSrgb8(rgba[2])};
+    return image;
 }
 
 std::vector<Vec3> decodeSrgb8(Bytes bytes, const std::string& name, std::size_t pixels) {
@@ -156,6 +156,7 @@ DecodedImage decodeImage(Bytes bytes, const std::string& nameForErrors) {
     if (std::optional<Image> linear = decodeHighRange(bytes, nameForErrors))
         return {linear->width, linear->height, {}, std::move(linear->pixels)};
     if (isWebp(bytes)) return decodeWebp(bytes, nameForErrors);
+    if (isJpeg(bytes)) return decodeJpeg(bytes, nameForErrors);
     DecodedImage image;
     readSize(bytes, nameForErrors, image);
     requireWholeFile(bytes, nameForErrors);
@@ -171,6 +172,7 @@ DecodedImage readTextureImage(const std::string& path) {
 Image readImage(const std::string& path) {
     const std::vector<std::uint8_t> bytes = readFile(path);
     if (std::optional<Image> linear = decodeHighRange(bytes, path)) return std::move(*linear);
+    if (isJpeg(bytes)) return linearImage(decodeJpeg(bytes, path));
     Image image;
     readSize(bytes, path, image);
     requireWholeFile(bytes, path);

@@ -3,16 +3,21 @@
 #include "vlf/base/error.h"
 #include "vlf/base/file.h"
 #include "vlf/image/srgb.h"
+#include "vlf/math/random.h"
 
 #include "temporary_folder.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <csignal>
+#include <memory>
+#include <stdexcept>
 
 #include <gtest/gtest.h>
 #include <stb_image_write.h>
 #include <sys/resource.h>
+#include <turbojpeg.h>
 
 namespace vlf {
 namespace {
@@ -70,6 +75,55 @@ TEST(Jpeg, IsReadWithinItsLoss) {
     const Bytes grey(3 * 16 * 16, 100);
     stbi_write_jpg(folder.path("a.jpg").c_str(), 16, 16, 3, grey.data(), 95);
     EXPECT_NEAR(readImage(folder.path("a.jpg")).at(8, 8).y, linearFromSrgb8(100), 0.01f);
+}
+
+/// The message of the InputError that decoding the bytes must throw.
+std::string errorOf(const Bytes& bytes) {
+    try {
+        decodeImage(bytes, "image");
+    } catch (const InputError& e) {
+        return e.what();
+    }
+    ADD_FAILURE() << "nothing was thrown";
+    return {};
+}
+
+/// A file of `pixels`, encoded by the format's own library.
+Bytes encodeJpeg(const Bytes& pixels, int size, int format, int sampling, int flags) {
+    const std::unique_ptr<void, int (*)(void*)> encoder(tjInitCompress(), tjDestroy);
+    unsigned char* data = nullptr;
+    unsigned long length = 0;
+    if (tjCompress2(encoder.get(), pixels.data(), size, 0, size, format, &data, &length, sampling,
+                    95, flags) != 0)
+        throw std::runtime_error(tjGetErrorStr2(encoder.get()));
+    const Bytes file(data, data + length);
+    tjFree(data);
+    return file;
+}
+
+TEST(Jpeg, MayBeGreyOrProgressive) {
+    const Bytes grey(32 * 32, 100);
+    const Bytes file = encodeJpeg(grey, 32, TJPF_GRAY, TJSAMP_GRAY, TJFLAG_PROGRESSIVE);
+    const DecodedImage image = decodeImage(file, "grey");
+    ASSERT_EQ(image.width, 32);
+    EXPECT_EQ(Bytes(image.srgb8.begin(), image.srgb8.begin() + 4), (Bytes{100, 100, 100, 255}));
+}
+
+TEST(Jpeg, OfInksIsMixedFromThem) {
+    Bytes inverted;  // of cyan a half, of black a fifth
+    for (int i = 0; i < 32 * 32; ++i) inverted.insert(inverted.end(), {128, 255, 255, 204});
+    const Bytes file = encodeJpeg(inverted, 32, TJPF_CMYK, TJSAMP_444, 0);
+    const DecodedImage image = decodeImage(file, "inks");
+    const std::array<int, 4> expected{102, 204, 204, 255};
+    for (std::size_t c = 0; c < 4; ++c) EXPECT_NEAR(image.srgb8[c], expected[c], 3) << c;
+}
+
+TEST(Jpeg, ThatWasCutWithinItsDataIsRefused) {
+    Bytes noise(3 * 64 * 64);
+    for (std::size_t i = 0; i < noise.size(); ++i) noise[i] = static_cast<std::uint8_t>(mixBits(i));
+    Bytes file = encodeJpeg(noise, 64, TJPF_RGB, TJSAMP_420, 0);
+    file.resize(file.size() / 2);
+    EXPECT_NE(errorOf(file).find("ends early"), std::string::npos) << errorOf(file);
 }
 
 /// Bytes of a picture wide enough to be run-length encoded, and what it shows.
@@ -164,17 +218,6 @@ TEST(ImageFile, RejectsASizeThatTheFileCannotHold) {
     EXPECT_THROW(decodeImage(png, "huge"), InputError);
 }
 
-/// The message of the InputError that decoding the bytes must throw.
-std::string errorOf(const Bytes& bytes) {
-    try {
-        decodeImage(bytes, "image");
-    } catch (const InputError& e) {
-        return e.what();
-    }
-    ADD_FAILURE() << "nothing was thrown";
-    return {};
-}
-
 Bytes::iterator markerOf(Bytes& jpeg, std::uint8_t code) {
     const Bytes marker{0xff, code};
     return std::search(jpeg.begin(), jpeg.end(), marker.begin(), marker.end());
@@ -193,11 +236,9 @@ TEST(ImageFile, KnowsHowManyPixelsAByteOfItsFormatMayStandFor) {
 }
 
 TEST(ImageFile, RefusesAJpegOfCountlessScans) {
-    const test::TemporaryFolder folder;
-    Bytes jpeg = jpegBytes(folder);
-    const auto scan = markerOf(jpeg, 0xda);
-    const Bytes header(scan, scan + 14);
-    for (int i = 0; i < 500; ++i) jpeg.insert(jpeg.end() - 2, header.begin(), header.end());
+    Bytes jpeg = encodeJpeg(Bytes(3 * 64 * 64, 9), 64, TJPF_RGB, TJSAMP_444, TJFLAG_PROGRESSIVE);
+    const Bytes scanAgain(markerOf(jpeg, 0xda), jpeg.end() - 2);
+    for (int i = 0; i < 500; ++i) jpeg.insert(jpeg.end() - 2, scanAgain.begin(), scanAgain.end());
     EXPECT_NE(errorOf(jpeg).find("more than 500 scans"), std::string::npos) << errorOf(jpeg);
 }
 
@@ -206,8 +247,7 @@ TEST(ImageFile, RefusesAJpegWhoseTablesAreTooLarge) {
     Bytes jpeg = jpegBytes(folder);
     const auto tables = markerOf(jpeg, 0xc4);
     tables[5 + 15] = 250;  // codes of 16 bits, besides the twelve shorter ones
-    EXPECT_NE(errorOf(jpeg).find("a Huffman table of 262 codes"), std::string::npos)
-        << errorOf(jpeg);
+    EXPECT_NE(errorOf(jpeg).find("Bogus Huffman table"), std::string::npos) << errorOf(jpeg);
     tables[5 + 15] = 0;
     decodeImage(jpeg, "as it was");
 }
