@@ -5,6 +5,7 @@
 #include "vlf/propagate/smooth_views.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace vlf {
@@ -14,6 +15,7 @@ namespace {
 constexpr float kMinThroughput = 1e-4f;
 constexpr float kMinCosine = 0.05f;
 constexpr float kGrazing = 1e-4f;
+constexpr int kMinSamples = 2;
 constexpr float kInset = 1e-3f;  // of the way to the middle of a triangle
 
 /// About the geometric normal `side` where the shading normal would send the ray into the surface.
@@ -45,6 +47,16 @@ float curvatureOf(const Scene& scene, std::uint32_t triangle, bool front) {
         extent += glm::dot(step, step);
     }
     return (front ? spread : -spread) / extent;
+}
+
+/// Of weak reflections fewer: there the diffuse light beside them hides more noise.
+GlossSamples samplesFor(const GlossSamples& samples, const Vec3& reflectance) {
+    const float share = std::sqrt(std::min(1.0f, maxComponent(reflectance)));
+    const auto part = [&](int count) {
+        const auto least = std::min(count, kMinSamples);
+        return std::max(least, static_cast<int>(std::ceil(share * static_cast<float>(count))));
+    };
+    return {part(samples.reflections), part(samples.emitters)};
 }
 
 }  // namespace
@@ -111,7 +123,7 @@ void MirrorViewTracer::startRough(float roughness, RandomStream& random) {
         const RoughPoint at(c.guard ? pointWithin(c) : c.position, side,
                             mirrorNormal(scene_, c.triangle, c.barycentric, side, false), toEye_,
                             roughness);
-        scatter({i, mirror, 0, true, true, true, 0}, at, samples_, random);
+        scatter({i, mirror, 0, true, true, true, 0}, at, samplesFor(samples_, mirror), random);
     }
     std::swap(paths_, nextPaths_);
     std::swap(rayQueue_, nextRays_);
@@ -190,7 +202,10 @@ Vec3 MirrorViewTracer::diffuseRadiance(const Arrival& at) const {
 
 void MirrorViewTracer::reflect(Path path, const Vec3& direction, const Arrival& at,
                                RandomStream& random) {
-    path.throughput *= mirrorReflectance(scene_, at.material, at.uv);
+    const Vec3 mirror = mirrorReflectance(scene_, at.material, at.uv);
+    const float chance = path.scattered ? chanceToFollow(mirror) : 1;
+    if (chance < 1 && random.next() >= chance) return;
+    path.throughput *= mirror / chance;
     if (maxComponent(path.throughput) < kMinThroughput) return;
     path.unfolding = path.unfolding && distances_.empty() && at.chart.planar &&
                      !at.material.isGlossy() &&
@@ -203,7 +218,7 @@ void MirrorViewTracer::reflect(Path path, const Vec3& direction, const Arrival& 
     if (at.material.isGlossy()) {
         const bool again = std::exchange(path.scattered, true);
         scatter(path, {at.position, side, normal, -direction, at.material.roughness},
-                again ? GlossSamples{1, 1} : samples_, random);
+                again ? GlossSamples{1, 1} : samplesFor(samples_, mirror), random);
         return;
     }
     nextRays_.push_back(

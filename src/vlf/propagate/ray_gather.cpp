@@ -29,7 +29,7 @@ bool RayGatherer::isPlainMirror(std::uint32_t chart) const {
 }
 
 void RayGatherer::startAtMirrors(const ParallelSubfield& subfield,
-                                 const std::vector<MirrorSight>& sights) {
+                                 const std::vector<MirrorSight>& sights, RandomStream& random) {
     paths_.clear();
     queue_.clear();
     const float perCell = 1 / glm::dot(subfield.xAxis, subfield.xAxis);
@@ -41,18 +41,20 @@ void RayGatherer::startAtMirrors(const ParallelSubfield& subfield,
         const Vec3 cell =
             origin + (perCell * s.x) * subfield.xAxis + (perCell * s.y) * subfield.yAxis;
         const std::uint32_t chart = sources_.mirrorChart[s.mirror];
+        const Vec3& mirror = scene_.materials[unwrap_.charts[chart].material].mirror;
+        const float chance = chanceToFollow(mirror);
+        if (chance < 1 && random.next() >= chance) continue;
         if (isPlainMirror(chart)) {
             const Vec3& n = unwrap_.charts[chart].normal;
             queue_.push_back({cell + s.mirrorDepth * subfield.direction + rays_.epsilon() * n,
                               glm::reflect(direction, n)});
-            paths_.push_back({s.receiver, 1, true, false,
-                              scene_.materials[unwrap_.charts[chart].material].mirror});
+            paths_.push_back({s.receiver, 1, true, false, mirror / chance});
         } else {
             // From the receiver on, to find where exactly the mirror is met.
             queue_.push_back(
                 {cell + s.receiverDepth * subfield.direction + rays_.epsilon() * direction,
                  direction});
-            paths_.push_back({s.receiver, 0, true, false, Vec3(1)});
+            paths_.push_back({s.receiver, 0, true, false, Vec3(1 / chance)});
         }
     }
 }
@@ -121,8 +123,13 @@ void RayGatherer::reflect(Path path, const Vec3& direction, const Hit& hit, std:
                           bool front, const Vec3& position, RandomStream& random) {
     const bool planar = sources_.planarMirror[chart] != 0;
     const Material& material = scene_.material(hit.triangle);
-    path.throughput *=
+    const Vec3 mirror =
         mirrorReflectance(scene_, material, uvAt(scene_, hit.triangle, hit.barycentric));
+    path.throughput *= mirror;
+    const bool chosen = path.reflections == 0 && !path.fromTexel;  // as a sight
+    const float chance = chosen ? 1 : chanceToFollow(mirror);
+    if (chance < 1 && random.next() >= chance) return;
+    path.throughput /= chance;
     path.planarOnly = path.planarOnly && planar;
     ++path.reflections;
     const Vec3 side = geometricNormal(scene_, hit.triangle) * (front ? 1.0f : -1.0f);
@@ -145,7 +152,7 @@ void RayGatherer::gatherFromMirrors(const ParallelSubfield& subfield,
                                     const std::vector<MirrorSight>& sights, RandomStream& random,
                                     const TexelBuffer& radiance, TexelBuffer& gathered) {
     if (sights.empty()) return;
-    startAtMirrors(subfield, sights);
+    startAtMirrors(subfield, sights, random);
     while (!queue_.empty()) advance(random, radiance, gathered);
 }
 

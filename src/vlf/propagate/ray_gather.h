@@ -8,12 +8,20 @@
 #include "vlf/trace/ray_scene.h"
 #include "vlf/unwrap/unwrap.h"
 
+#include <algorithm>
 #include <vector>
 
 namespace vlf {
 
 /// Longest chain of mirrors followed; what is left of the light then is dropped.
 inline constexpr int kMaxReflections = 16;
+
+/// Chance with which light of many paths is followed by way of a mirror of this reflectance: of weak
+/// ones some, which then stand for all. What chance adds to the variance is at most a tenth of the
+/// square of the light seen.
+inline float chanceToFollow(const Vec3& reflectance) {
+    return std::min(1.0f, 2 * maxComponent(reflectance));
+}
 
 /// Follows rays over mirrors and adds the radiance found to their receivers. Of the directions in
 /// which a rough mirror reflects, one is drawn.
@@ -43,7 +51,8 @@ class RayGatherer {
         Vec3 throughput;
     };
 
-    void startAtMirrors(const ParallelSubfield& subfield, const std::vector<MirrorSight>& sights);
+    void startAtMirrors(const ParallelSubfield& subfield, const std::vector<MirrorSight>& sights,
+                        RandomStream& random);
     void advance(RandomStream& random, const TexelBuffer& radiance, TexelBuffer& gathered);
     Vec3 radianceSeen(const Path& path, const Hit& hit, std::uint32_t chart, bool front,
                       const Vec3& position, const TexelBuffer& radiance) const;
