@@ -111,7 +111,8 @@ std::vector<MirrorChart> mirrorCharts(const Scene& scene, const LightField& fiel
         }
     const auto add = [&](std::uint32_t chart, std::uint32_t triangle, bool front) {
         if (chart != kNoChart && place[chart] != kNoChart)
-            mirrors[place[chart]].sides.push_back({triangle, front});
+            mirrors[place[chart]].sides.push_back(
+                {triangle, front, geometricNormal(scene, triangle) * (front ? 1.0f : -1.0f)});
     };
     for (std::uint32_t t = 0; t < field.triangleCharts.size(); ++t) {
         add(field.triangleCharts[t].front, t, true);
@@ -122,8 +123,7 @@ std::vector<MirrorChart> mirrorCharts(const Scene& scene, const LightField& fiel
 
 bool MirrorCellFinder::project(const MirrorChart::Side& side, const ParallelSubfield& subfield,
                                const Vec3& toEye, Projected& projected) const {
-    const Vec3 normal = geometricNormal(scene_, side.triangle) * (side.front ? 1.0f : -1.0f);
-    if (glm::dot(normal, toEye) < kMinCosine) return false;
+    if (glm::dot(side.normal, toEye) < kMinCosine) return false;
     for (int i = 0; i < 3; ++i) {
         const Vec3& p = scene_.position(side.triangle, i);
         projected.corner[i] = subfield.cellCoordinates(p);
@@ -206,8 +206,7 @@ MirrorCell MirrorCellFinder::cellAt(const MirrorChart& chart, const ParallelSubf
     const Vec2 missing = Vec2(x + 0.5f, y + 0.5f) - subfield.cellCoordinates(cell.position);
     const float perCell = 1 / glm::dot(subfield.xAxis, subfield.xAxis);
     Vec3 step = perCell * (missing.x * subfield.xAxis + missing.y * subfield.yAxis);
-    const Vec3 normal = geometricNormal(scene_, side.triangle);
-    step -= toEye * (glm::dot(step, normal) / glm::dot(toEye, normal));
+    step -= toEye * (glm::dot(step, side.normal) / glm::dot(toEye, side.normal));
     const float furthest = kMaxGuard * std::sqrt(perCell);
     cell.position += step * std::min(1.0f, furthest / std::max(glm::length(step), 1e-20f));
     return cell;

@@ -17,6 +17,7 @@ struct MirrorChart {
     struct Side {
         std::uint32_t triangle;
         bool front;
+        Vec3 normal;  ///< geometric, of the side
     };
     std::vector<Side> sides;
 };

@@ -15,7 +15,8 @@ namespace {
 constexpr float kMinThroughput = 1e-4f;
 constexpr float kMinCosine = 0.05f;
 constexpr float kGrazing = 1e-4f;
-constexpr int kMinSamples = 2;
+constexpr int kMinReflections = 4;
+constexpr float kShared = 0.5f;  // of a cell: closer points show the same in a rough mirror
 constexpr float kInset = 1e-3f;  // of the way to the middle of a triangle
 
 /// About the geometric normal `side` where the shading normal would send the ray into the surface.
@@ -51,12 +52,12 @@ float curvatureOf(const Scene& scene, std::uint32_t triangle, bool front) {
 
 /// Of weak reflections fewer: there the diffuse light beside them hides more noise.
 GlossSamples samplesFor(const GlossSamples& samples, const Vec3& reflectance) {
-    const float share = std::sqrt(std::min(1.0f, maxComponent(reflectance)));
-    const auto part = [&](int count) {
-        const auto least = std::min(count, kMinSamples);
-        return std::max(least, static_cast<int>(std::ceil(share * static_cast<float>(count))));
+    const float share = std::min(1.0f, maxComponent(reflectance));
+    const auto part = [&](int count, int least) {
+        const int some = static_cast<int>(std::ceil(share * static_cast<float>(count)));
+        return std::min(count, std::max(least, some));
     };
-    return {part(samples.reflections), part(samples.emitters)};
+    return {part(samples.reflections, kMinReflections), part(samples.emitters, 1)};
 }
 
 }  // namespace
@@ -115,13 +116,19 @@ void MirrorViewTracer::startRough(float roughness, RandomStream& random) {
     distances_.assign(cells_.size(), {});
     nextPaths_.clear();
     nextRays_.clear();
+    viewPoints_.clear();
+    for (const MirrorCell& c : cells_)
+        viewPoints_.push_back({c.guard ? pointWithin(c) : c.position,
+                               mirrorNormal(scene_, c.triangle, c.barycentric,
+                                            sideNormal(scene_, c.triangle, c.front), false)});
+    shownBy_ = firstNearby(viewPoints_, kShared * cellSize_);
     for (std::uint32_t i = 0; i < cells_.size(); ++i) {
+        if (shownBy_[i] != i) continue;
         const MirrorCell& c = cells_[i];
         const Vec3 side = sideNormal(scene_, c.triangle, c.front);
         const Vec3 mirror = mirrorReflectance(scene_, scene_.material(c.triangle),
                                               uvAt(scene_, c.triangle, c.barycentric));
-        const RoughPoint at(c.guard ? pointWithin(c) : c.position, side,
-                            mirrorNormal(scene_, c.triangle, c.barycentric, side, false), toEye_,
+        const RoughPoint at(viewPoints_[i].position, side, viewPoints_[i].normal, toEye_,
                             roughness);
         scatter({i, mirror, 0, true, true, true, 0}, at, samplesFor(samples_, mirror), random);
     }
@@ -287,12 +294,13 @@ void MirrorViewTracer::arrive(const Path& path, const Ray& ray, const Hit& hit,
     if (at.material.isMirror()) reflect(next, ray.direction, at, random);
 }
 
-void MirrorViewTracer::smooth(float roughness) {
-    std::vector<Vec3> normals;
-    for (const MirrorCell& c : cells_)
-        normals.push_back(mirrorNormal(scene_, c.triangle, c.barycentric,
-                                       sideNormal(scene_, c.triangle, c.front), false));
-    smoothViews(views_, cells_, normals, roughness, cellSize_);
+/// What the cells of a rough mirror show, from what those traced do.
+void MirrorViewTracer::share() {
+    for (std::size_t i = 0; i < views_.size(); ++i) {
+        views_[i] = views_[shownBy_[i]];
+        const Distances& d = distances_[shownBy_[i]];
+        if (d.count > 0) views_[i].distance = static_cast<float>(d.count) / d.inverseSum;
+    }
 }
 
 void MirrorViewTracer::advance(RandomStream& random) {
@@ -335,10 +343,10 @@ const std::vector<MirrorView>& MirrorViewTracer::trace(std::span<const MirrorCel
         start(planar);
     for (int step = 0; step <= kMaxReflections && !rayQueue_.empty(); ++step) advance(random);
     addVisiblePoints();
-    for (std::size_t i = 0; i < distances_.size(); ++i)
-        if (distances_[i].count > 0)
-            views_[i].distance = static_cast<float>(distances_[i].count) / distances_[i].inverseSum;
-    if (material.isGlossy()) smooth(material.roughness);
+    if (material.isGlossy()) {
+        share();
+        smoothViews(views_, cells_, viewPoints_, material.roughness, cellSize_);
+    }
     if (!planar) formImages();
     for (MirrorView& v : views_) v.distance = std::min(v.distance, longest_);
     return views_;

@@ -6,6 +6,7 @@
 #include "vlf/field/light_field.h"
 #include "vlf/math/random.h"
 #include "vlf/propagate/mirror_cells.h"
+#include "vlf/propagate/shared_views.h"
 #include "vlf/scene/emitter_sampler.h"
 #include "vlf/scene/scene.h"
 #include "vlf/trace/ray_scene.h"
@@ -99,7 +100,7 @@ class MirrorViewTracer {
     void noteDistance(const Path& path, float distance);
     Vec3 diffuseRadiance(const Arrival& at) const;
     void reflect(Path path, const Vec3& direction, const Arrival& at, RandomStream& random);
-    void smooth(float roughness);
+    void share();
     void formImages();
 
     const Scene& scene_;
@@ -111,7 +112,9 @@ class MirrorViewTracer {
     std::span<const MirrorCell> cells_;
     Vec3 toEye_{0};
     std::vector<MirrorView> views_;
-    std::vector<Distances> distances_;  ///< by cell; empty: of a perfect mirror
+    std::vector<Distances> distances_;    ///< by cell; empty: of a perfect mirror
+    std::vector<ViewPoint> viewPoints_;   ///< the cells' of a rough mirror
+    std::vector<std::uint32_t> shownBy_;  ///< by cell: the cell that is traced for it
     std::vector<Path> paths_, nextPaths_;
     std::vector<Ray> rayQueue_, nextRays_;
     std::vector<Hit> hits_;

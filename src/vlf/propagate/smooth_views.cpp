@@ -53,7 +53,7 @@ class CellMap {
 }  // namespace
 
 void smoothViews(std::vector<MirrorView>& views, std::span<const MirrorCell> cells,
-                 std::span<const Vec3> normals, float roughness, float cellSize) {
+                 std::span<const ViewPoint> points, float roughness, float cellSize) {
     if (cells.empty()) return;
     const CellMap map(cells);
     const std::vector<MirrorView> noisy = views;
@@ -67,7 +67,7 @@ void smoothViews(std::vector<MirrorView>& views, std::span<const MirrorCell> cel
         map.around(cells[i], reach, [&](std::size_t j, const Vec2& offset) {
             if (noisy[j].distance <= 0) return;
             const Vec2 away = offset / radius;
-            const Vec3 turned = (normals[j] - normals[i]) / turn;
+            const Vec3 turned = (points[j].normal - points[i].normal) / turn;
             const float w = std::exp(-0.5f * (glm::dot(away, away) + glm::dot(turned, turned)));
             radiance += w * noisy[j].radiance;
             nearness += w / noisy[j].distance;

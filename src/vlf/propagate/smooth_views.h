@@ -10,8 +10,8 @@ namespace vlf {
 
 /// Means over neighbouring cells of one chart: as far about each as a part of its lobe is wide at
 /// the distance of what it sees, where all see nearly the same, and where the mirror faces alike.
-/// `normals`: shading normals by cell; `roughness`: width of the lobe; `cellSize`: metres.
+/// `points`: by cell, with shading normals; `roughness`: width of the lobe; `cellSize`: metres.
 void smoothViews(std::vector<MirrorView>& views, std::span<const MirrorCell> cells,
-                 std::span<const Vec3> normals, float roughness, float cellSize);
+                 std::span<const ViewPoint> points, float roughness, float cellSize);
 
 }  // namespace vlf
