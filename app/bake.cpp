@@ -57,7 +57,8 @@ double peakMebibytes() {
 }
 
 nlohmann::ordered_json toJson(const Options& options, const BakeReport& report,
-                              const BakeRecord& record, bool resumed, double seconds) {
+                              const BakeRecord& record, std::uint64_t predictedMemory, bool resumed,
+                              double seconds) {
     nlohmann::ordered_json stages = nlohmann::ordered_json::array();
     for (const BakeReport::Stage& s : report.stages)
         stages.push_back({{"name", s.name}, {"seconds", s.seconds}, {"cpuSeconds", s.cpuSeconds}});
@@ -83,6 +84,7 @@ nlohmann::ordered_json toJson(const Options& options, const BakeReport& report,
             {"resumed", resumed},
             {"stages", stages},
             {"seconds", seconds},
+            {"predictedMemoryMiB", static_cast<double>(predictedMemory) / (1024 * 1024)},
             {"peakMemoryMiB", peakMebibytes()}};
 }
 
@@ -127,17 +129,23 @@ void run(const Options& options, const Globals& globals) {
     const BakeParams params = bakeParams(options.quality, globals);
     BakedRoom room;
     room.scene = readScene(options, globals);
-    if (options.maxMemory > 0)
-        requireMemory(room.scene, params,
-                      static_cast<std::uint64_t>(options.maxMemory * 1024 * 1024 * 1024));
+    const auto maxMemory = static_cast<std::uint64_t>(options.maxMemory * 1024 * 1024 * 1024);
+    if (maxMemory > 0) requireMemory(room.scene, params, maxMemory);
     const std::string hash = sceneHash(room.scene);
     const BakeCheckpoint checkpoint(output.checkpointPath(), params, hash);
     BakeSolution solution = beginning(checkpoint, options.resume, globals.quiet);
     const bool resumed = options.resume && checkpoint.exists();
     BakeReport report;
+    std::uint64_t predictedMemory = 0;
     {
         CheckpointProgress progress(globals.quiet, checkpoint, options.checkpointEvery);
-        const auto keep = [&](const BakeState& state) { progress.keep(state); };
+        const auto keep = [&](const BakeState& state) {
+            if (predictedMemory == 0) {
+                predictedMemory = predictMemory(state).total();
+                if (maxMemory > 0) requireMemory(state, maxMemory);
+            }
+            progress.keep(state);
+        };
         room.field = bake(room.scene, params, progress, &report, keep, std::move(solution));
         progress.stage("writing");
         room.field.record.programVersion = VLF_VERSION;
@@ -146,8 +154,8 @@ void run(const Options& options, const Globals& globals) {
     }
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
     if (!options.json.empty())
-        writeJson(options.json,
-                  toJson(options, report, room.field.record, resumed, seconds.count()));
+        writeJson(options.json, toJson(options, report, room.field.record, predictedMemory, resumed,
+                                       seconds.count()));
     if (!globals.quiet) printReport(options, report, seconds.count());
 }
 

@@ -43,6 +43,7 @@ std::vector<std::uint8_t> compress(const Block& block, int level) {
                                             block.bytes.data(), block.bytes.size());
     if (ZSTD_isError(size)) throw std::runtime_error(ZSTD_getErrorName(size));
     frames.resize(size);
+    frames.shrink_to_fit();
     const std::size_t most = std::max(block.bytes.size(), block.memoryBytes);
     padTo(frames, (most + kMaxRatio - 1) / kMaxRatio);
     return frames;

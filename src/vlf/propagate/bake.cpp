@@ -135,17 +135,9 @@ void fill(BakeState& state, const LightField& field, const char* stage,
 
 void addRadianceFields(BakeState& state, LightField& field, Progress& progress,
                        const BakeObserver& observe) {
-    const BakeParams& p = state.params;
-    fill(state, field, "radiance field",
-         {.lines = p.radianceDirections, .cells = p.radianceCells, .tileSize = p.tileSize},
-         state.radiance, progress, observe);
-    fill(state, field, "gloss",
-         {.lines = p.glossDirections,
-          .cells = p.glossCells,
-          .tileSize = p.tileSize,
-          .kind = MirrorKind::rough,
-          .gloss = p.gloss},
-         state.gloss, progress, observe);
+    const auto [perfect, rough] = radianceParams(state.params);
+    fill(state, field, "radiance field", perfect, state.radiance, progress, observe);
+    fill(state, field, "gloss", rough, state.gloss, progress, observe);
     field.radiance = std::move(state.radiance.field);
     field.gloss = std::move(state.gloss.field);
     state.radiance = {};
@@ -185,6 +177,15 @@ BakeParams presetParams(const std::string& name) {
         throw InputError("unknown preset '" + name + "': choose draft, standard or high");
     }
     return p;
+}
+
+std::array<RadianceParams, 2> radianceParams(const BakeParams& p) {
+    return {{{.lines = p.radianceDirections, .cells = p.radianceCells, .tileSize = p.tileSize},
+             {.lines = p.glossDirections,
+              .cells = p.glossCells,
+              .tileSize = p.tileSize,
+              .kind = MirrorKind::rough,
+              .gloss = p.gloss}}};
 }
 
 BakeState makeState(const Scene& scene, const BakeParams& params, Progress& progress,

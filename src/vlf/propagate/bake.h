@@ -10,10 +10,12 @@
 #include "vlf/propagate/bundle_sweep.h"
 #include "vlf/propagate/light_sources.h"
 #include "vlf/propagate/mirror_view.h"
+#include "vlf/propagate/radiance_bake.h"
 #include "vlf/scene/scene.h"
 #include "vlf/trace/ray_scene.h"
 #include "vlf/unwrap/unwrap.h"
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -45,6 +47,9 @@ struct BakeParams {
 
 /// Parameters of "draft", "standard" or "high". Throws InputError for another name.
 BakeParams presetParams(const std::string& name);
+
+/// Of the radiance fields that a bake makes: that of perfect mirrors and that of rough ones.
+std::array<RadianceParams, 2> radianceParams(const BakeParams& params);
 
 /// A bake under way. Reflectances are per entry of unwrap.texels.
 struct BakeState : BakeSolution {

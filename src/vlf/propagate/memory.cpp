@@ -1,6 +1,7 @@
 #include "vlf/propagate/memory.h"
 
 #include "vlf/base/error.h"
+#include "vlf/base/parallel.h"
 #include "vlf/unwrap/texel_size.h"
 
 #include <cmath>
@@ -11,12 +12,33 @@ namespace vlf {
 
 namespace {
 
-// Bytes, measured: per texel its points, accumulators and irradiances; per triangle its vertices,
-// faces, adjacency and acceleration structure.
-constexpr double kPerTexel = 620, kPerTriangle = 900, kBase = 60e6;
-constexpr double kAtlasOverhead = 1.3;     // gutters, gaps, texels cut by edges
-constexpr double kElementBytes = 6;        // RadianceElement
+// Bytes, measured: of the program; per triangle its vertices, faces, adjacency and acceleration
+// structure; per atlas entry its points, accumulators and irradiances; per radiance element itself
+// and its share of the coded file; per ray of a bundle the layers that it meets.
+constexpr double kBase = 12e6, kPerTriangle = 255, kPerTexel = 400, kPerElement = 6.5,
+                 kPerRay = 140;
+constexpr double kAtlasOverhead = 1.6;     // gutters, gaps, texels cut by edges
 constexpr double kRadianceOverhead = 1.4;  // whole tiles, guard band; measured for m = 8
+
+/// What memory grows with.
+struct BakeSize {
+    double triangles, textureBytes, texels, radianceElements;
+    int cells;
+};
+
+MemoryNeed needOf(const BakeSize& size) {
+    const double transport =
+        kBase + size.textureBytes + kPerTriangle * size.triangles + kPerTexel * size.texels;
+    return {static_cast<std::uint64_t>(transport),
+            static_cast<std::uint64_t>(kPerElement * size.radianceElements)};
+}
+
+double textureBytes(const Scene& scene) {
+    double bytes = 0;
+    for (const Texture& texture : scene.textures)
+        bytes += static_cast<double>(texture.srgb8.size() + sizeof(Vec3) * texture.linear.size());
+    return bytes;
+}
 
 /// Elements of a radiance field: half of all directions see a side, at a mean cosine of one half.
 double elements(const Scene& scene, MirrorKind kind, int lines, int cells) {
@@ -24,7 +46,7 @@ double elements(const Scene& scene, MirrorKind kind, int lines, int cells) {
     for (std::uint32_t t = 0; t < scene.triangles.size(); ++t)
         if (scene.material(t).isMirror(kind)) mirrors += area(scene, t);
     const double cell = 2.0 * boundingSphere(scene).radius / (cells - 1);
-    return 0.5 * lines * mirrors / (cell * cell);
+    return kRadianceOverhead * 0.5 * lines * mirrors / (cell * cell);
 }
 
 double gibibytes(double bytes) {
@@ -37,42 +59,54 @@ std::string text(double value) {
     return buffer;
 }
 
-}  // namespace
-
-MemoryNeed predictMemory(const Scene& scene, const BakeParams& params) {
-    const double texels =
-        params.texelSize > 0 ? texelsNeeded(scene, params.texelSize) : params.texelBudget;
-    MemoryNeed need;
-    need.transport =
-        static_cast<std::uint64_t>(kBase + kAtlasOverhead * kPerTexel * texels +
-                                   kPerTriangle * static_cast<double>(scene.triangles.size()));
-    const double count =
-        elements(scene, MirrorKind::perfect, params.radianceDirections, params.radianceCells) +
-        elements(scene, MirrorKind::rough, params.glossDirections, params.glossCells);
-    need.radiance = static_cast<std::uint64_t>(kRadianceOverhead * kElementBytes * count);
-    return need;
-}
-
-void requireMemory(const Scene& scene, const BakeParams& params, std::uint64_t bytes) {
-    const MemoryNeed need = predictMemory(scene, params);
+void require(const MemoryNeed& need, const BakeParams& params, float texelSize,
+             std::uint64_t bytes) {
     if (need.total() <= bytes) return;
     const double limit = static_cast<double>(bytes);
     std::string advice;
     if (static_cast<double>(need.radiance) > 0.5 * limit) {
         const double scale = std::sqrt(0.4 * limit / static_cast<double>(need.radiance));
-        advice +=
-            " --radiance-cells " + std::to_string(static_cast<int>(params.radianceCells * scale)) +
-            " --gloss-cells " + std::to_string(static_cast<int>(params.glossCells * scale));
+        advice += " --radiance-cells " +
+                  std::to_string(static_cast<int>(params.radianceCells * scale)) +
+                  " --gloss-cells " + std::to_string(static_cast<int>(params.glossCells * scale));
     }
-    if (static_cast<double>(need.transport) > 0.5 * limit) {
-        const double size =
-            params.texelSize > 0 ? params.texelSize : texelSizeForBudget(scene, params.texelBudget);
+    if (static_cast<double>(need.transport) > 0.5 * limit)
         advice += " --texel " +
-                  text(size * std::sqrt(static_cast<double>(need.transport) / (0.4 * limit)));
-    }
+                  text(texelSize * std::sqrt(static_cast<double>(need.transport) / (0.4 * limit)));
     throw InputError("this bake needs about " + text(gibibytes(static_cast<double>(need.total()))) +
                      " GiB, more than the " + text(gibibytes(limit)) + " GiB allowed: try" +
                      advice);
+}
+
+}  // namespace
+
+MemoryNeed predictMemory(const Scene& scene, const BakeParams& params) {
+    const double texels =
+        params.texelSize > 0 ? texelsNeeded(scene, params.texelSize) : params.texelBudget;
+    return needOf(
+        {static_cast<double>(scene.triangles.size()), textureBytes(scene), kAtlasOverhead * texels,
+         elements(scene, MirrorKind::perfect, params.radianceDirections, params.radianceCells) +
+             elements(scene, MirrorKind::rough, params.glossDirections, params.glossCells),
+         params.cells});
+}
+
+MemoryNeed predictMemory(const BakeState& state) {
+    const LightField field = unlitField(state);
+    double elements = 0;
+    for (const RadianceParams& params : radianceParams(state.params))
+        elements += estimateElements(state.scene, field, params);
+    return needOf({static_cast<double>(state.scene.triangles.size()), textureBytes(state.scene),
+                   static_cast<double>(state.unwrap.atlasSize()), elements, state.params.cells});
+}
+
+void requireMemory(const Scene& scene, const BakeParams& params, std::uint64_t bytes) {
+    const float texelSize =
+        params.texelSize > 0 ? params.texelSize : texelSizeForBudget(scene, params.texelBudget);
+    require(predictMemory(scene, params), params, texelSize, bytes);
+}
+
+void requireMemory(const BakeState& state, std::uint64_t bytes) {
+    require(predictMemory(state), state.params, state.unwrap.texelSize, bytes);
 }
 
 }  // namespace vlf

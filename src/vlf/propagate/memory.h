@@ -8,17 +8,22 @@
 namespace vlf {
 
 struct MemoryNeed {
-    std::uint64_t transport = 0;  ///< bytes: geometry, texels, accumulators
-    std::uint64_t radiance = 0;   ///< bytes: the radiance field of the mirrors
+    std::uint64_t transport = 0;  ///< bytes: geometry, textures, texels, accumulators
+    std::uint64_t radiance = 0;   ///< bytes: the radiance fields of the mirrors
 
     std::uint64_t total() const { return transport + radiance; }
 };
 
-/// Predicted peak of a bake, from areas and counts alone.
+/// Predicted peak of a bake before it starts, from areas and counts alone. Mirrors of many small
+/// charts take more.
 MemoryNeed predictMemory(const Scene& scene, const BakeParams& params);
 
-/// Throws InputError if the bake would need more than `bytes`, naming the settings that bring it
+/// The same to about 10 %, of a bake whose charts are known.
+MemoryNeed predictMemory(const BakeState& state);
+
+/// Throw InputError if the bake would need more than `bytes`, naming the settings that bring it
 /// down and by how much.
 void requireMemory(const Scene& scene, const BakeParams& params, std::uint64_t bytes);
+void requireMemory(const BakeState& state, std::uint64_t bytes);
 
 }  // namespace vlf

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <numeric>
 #include <string>
 #include <utility>
 
@@ -14,6 +15,7 @@ namespace vlf {
 
 namespace {
 
+constexpr std::size_t kDirectionsLookedAt = 64;
 constexpr float kLongestDistance = 8;  // of the scene's radius: mirrors in mirrors
 
 void checkParams(const RadianceParams& p) {
@@ -46,6 +48,22 @@ std::vector<TileRow> rowsOf(std::uint32_t chart, const TileCover& cover) {
     return rows;
 }
 
+/// The rows of one direction, of the given charts.
+std::vector<TileRow> rowsOf(std::uint32_t direction, const Scene& scene, const LightField& field,
+                            const DirectionSet& directions, const std::vector<MirrorChart>& mirrors,
+                            const RadianceParams& params) {
+    const ParallelSubfield subfield = subfieldOf(field.frame, directions, direction, params.cells);
+    const MirrorCellFinder finder(scene);
+    std::vector<TileRow> rows;
+    for (const MirrorChart& mirror : mirrors) {
+        const auto added = rowsOf(
+            mirror.chart,
+            finder.tiles(mirror, subfield, directions.direction(direction), params.tileSize));
+        rows.insert(rows.end(), added.begin(), added.end());
+    }
+    return rows;
+}
+
 /// The rows of a field of the given charts.
 RadianceField makeRows(const Scene& scene, const LightField& field, const DirectionSet& directions,
                        const std::vector<MirrorChart>& mirrors, const RadianceParams& params) {
@@ -56,15 +74,7 @@ RadianceField makeRows(const Scene& scene, const LightField& field, const Direct
     radiance.maxDistance = kLongestDistance * field.frame.radius;
     std::vector<std::vector<TileRow>> rows(directions.directionCount());
     parallelFor(rows.size(), 16, [&](std::size_t i) {
-        const auto d = static_cast<std::uint32_t>(i);
-        const ParallelSubfield subfield = subfieldOf(field.frame, directions, d, params.cells);
-        const MirrorCellFinder finder(scene);
-        for (const MirrorChart& mirror : mirrors) {
-            const auto added =
-                rowsOf(mirror.chart,
-                       finder.tiles(mirror, subfield, directions.direction(d), params.tileSize));
-            rows[i].insert(rows[i].end(), added.begin(), added.end());
-        }
+        rows[i] = rowsOf(static_cast<std::uint32_t>(i), scene, field, directions, mirrors, params);
     });
     std::uint64_t next = 0;
     radiance.firstRow = {0};
@@ -114,6 +124,25 @@ RadianceSize radianceSize(const Scene& scene, const LightField& field,
     const std::uint64_t elements = elementCount(radiance);
     return {elements, elements * sizeof(RadianceElement) + radiance.rows.size() * sizeof(TileRow) +
                           radiance.firstRow.size() * sizeof(std::uint32_t)};
+}
+
+double estimateElements(const Scene& scene, const LightField& field, const RadianceParams& params) {
+    if (params.lines == 0) return 0;
+    checkParams(params);
+    const std::vector<MirrorChart> mirrors = mirrorCharts(scene, field, params.kind);
+    if (mirrors.empty()) return 0;
+    const DirectionSet directions(params.lines);
+    const auto count = static_cast<std::size_t>(directions.directionCount());
+    const std::size_t looked = std::min(kDirectionsLookedAt, count);
+    std::vector<double> tiles(looked);
+    parallelFor(looked, 1, [&](std::size_t i) {
+        const auto direction = static_cast<std::uint32_t>(i * count / looked);
+        for (const TileRow& row : rowsOf(direction, scene, field, directions, mirrors, params))
+            tiles[i] += row.tilesWide;
+    });
+    const double mean =
+        std::accumulate(tiles.begin(), tiles.end(), 0.0) / static_cast<double>(looked);
+    return mean * static_cast<double>(count) * params.tileSize * params.tileSize;
 }
 
 bool fillRadiance(const Scene& scene, const RayScene& rays, const LightField& field,

@@ -29,6 +29,9 @@ struct RadianceSize {
 RadianceSize radianceSize(const Scene& scene, const LightField& field,
                           const RadianceParams& params);
 
+/// About how many elements that would be, to a few per cent, from some of the directions.
+double estimateElements(const Scene& scene, const LightField& field, const RadianceParams& params);
+
 /// A radiance field, complete or under way.
 struct PartialRadiance {
     RadianceField field;  ///< elements of all directions, filled for those that are done
