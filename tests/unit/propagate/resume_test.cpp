@@ -234,6 +234,42 @@ TEST_F(Resume, GoesOnAsOftenAsItIsCancelled) {
     EXPECT_GT(times, 3);
 }
 
+TEST_F(Resume, OfSoManyBouncesTheFieldIsTheSame) {
+    BakeParams bounces = params();
+    bounces.maxBounces = 3;
+    const LightField three = bake(scene, bounces, none);
+    EXPECT_EQ(three.record.bounces, 4);  // and the fine one
+    std::vector<BakeSolution> kept;
+    PausingProgress progress(23);
+    bake(scene, bounces, progress, nullptr, [&](const BakeState& s) {
+        if (!s.sweep.nextLine.empty()) kept.push_back(s);
+    });
+    ASSERT_GT(kept.size(), 4u);
+    for (const BakeSolution& solution : kept)
+        expectSame(three, bake(scene, bounces, none, nullptr, unobserved, throughMemory(solution)));
+}
+
+TEST_F(Resume, ASweepThatWasLeftDoesOnlyWhatIsLeftOfIt) {
+    BakeSolution last;
+    PausingProgress progress(11);
+    bake(scene, params(), progress, nullptr, [&](const BakeState& s) {
+        if (s.stage == BakeStage::settled && !s.sweep.nextLine.empty() && s.sweep.gathered.empty())
+            last = s;
+    });
+    ASSERT_FALSE(last.sweep.nextLine.empty());
+    std::uint32_t least = ~0u;
+    for (const std::uint32_t next : last.sweep.nextLine) least = std::min(least, next);
+    ASSERT_GT(least, 20u);
+    CancelledProgress stopped(1);  // at once: what is done stays done
+    BakeSolution kept;
+    EXPECT_THROW(
+        bake(
+            scene, params(), stopped, nullptr, [&](const BakeState& s) { kept = s; }, last),
+        Cancelled);
+    for (std::size_t a = 0; a < kept.sweep.nextLine.size(); ++a)
+        EXPECT_GE(kept.sweep.nextLine[a], last.sweep.nextLine[a]);
+}
+
 TEST_F(Resume, ASolutionOfAnotherSceneIsRefused) {
     std::vector<BakeSolution> kept;
     PausingProgress progress(40);
