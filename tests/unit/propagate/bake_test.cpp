@@ -193,6 +193,24 @@ TEST(MemoryNeed, OfMirrorsIsKnownWithTheCharts) {
     }
 }
 
+TEST(RequireMemory, CountsTheTilesOfSmallMirrors) {
+    SceneBuilder b;
+    b.box(Vec3(-1), Vec3(1), true, b.material("wall", Vec3(0.5f)));
+    const auto mirror = b.material("mirror", Vec3(0), Vec3(0), Vec3(0.9f));
+    for (int i = 0; i < 100; ++i)
+        b.quad({-0.9f + 0.18f * static_cast<float>(i % 10), 0.1f * static_cast<float>(i / 10), 0},
+               {0.002f, 0, 0}, {0, 0.002f, 0}, mirror);
+    BakeParams p = quick();
+    p.radianceDirections = 129;
+    p.radianceCells = 128;
+    Progress progress;
+    const BakeState state = makeState(b.scene(), p, progress);
+    const std::uint64_t byArea = predictMemory(b.scene(), p).total();
+    EXPECT_GT(predictMemory(state).total(), byArea + 5'000'000);
+    EXPECT_NO_THROW(requireMemory(b.scene(), p, byArea + 1'000'000));
+    EXPECT_THROW(requireMemory(state, byArea + 1'000'000), InputError);
+}
+
 TEST(MemoryNeed, OfLargeMirrorsIsExpectedFromTheirArea) {
     const Scene scene = generateScene("mirror-room", {1000});
     Progress progress;
