@@ -37,8 +37,8 @@ bool startsWith(Bytes bytes, Bytes start) {
 /// JPEGs behind fill bytes.
 bool isRefused(Bytes bytes) {
     constexpr std::uint8_t kGif[] = {'G', 'I', 'F'}, kPsd[] = {'8', 'B', 'P', 'S'},
-                           kPic[] = {0x53, 0x80, 0xf6, 0x34}, kFill[] = {0xff, 0xff}, kPnm5[] = {'P', '5'},
-                           kPnm6[] = {'P', '6'};
+                           kPic[] = {0x53, 0x80, 0xf6, 0x34}, kFill[] = {0xff, 0xff},
+                           kPnm5[] = {'P', '5'}, kPnm6[] = {'P', '6'};
     return startsWith(bytes, kGif) || startsWith(bytes, kPsd) || startsWith(bytes, kPic) ||
            startsWith(bytes, kFill) || startsWith(bytes, kPnm5) || startsWith(bytes, kPnm6);
 }
@@ -94,10 +94,11 @@ void requireWholeFile(Bytes bytes, const std::string& name) {
         throw InputError(name + ": damaged image: the file ends early");
 }
 
-/// Pixels from one of stb's loaders, `channels` values each.
+/// Pixels from one of stb's loaders, `channels` values each. `inFile`: how many the file has.
 template <class T, class Load>
-StbPixels<T> loadPixels(Load load, Bytes bytes, const std::string& name, int channels) {
-    int width = 0, height = 0, inFile = 0;
+StbPixels<T> loadPixels(Load load, Bytes bytes, const std::string& name, int channels,
+                        int& inFile) {
+    int width = 0, height = 0;
     T* pixels =
         load(bytes.data(), static_cast<int>(bytes.size()), &width, &height, &inFile, channels);
     if (!pixels) throw InputError(name + ": damaged image: " + stbi_failure_reason());
@@ -123,12 +124,14 @@ Image linearImage(const DecodedImage& decoded) {
 }
 
 std::vector<Vec3> decodeSrgb8(Bytes bytes, const std::string& name, std::size_t pixels) {
-    const auto values = loadPixels<std::uint8_t>(stbi_load_from_memory, bytes, name, 3);
+    int inFile = 0;
+    const auto values = loadPixels<std::uint8_t>(stbi_load_from_memory, bytes, name, 3, inFile);
     return toVectors(values.get(), pixels, linearFromSrgb8);
 }
 
 std::vector<Vec3> decodeSrgb16(Bytes bytes, const std::string& name, std::size_t pixels) {
-    const auto values = loadPixels<std::uint16_t>(stbi_load_16_from_memory, bytes, name, 3);
+    int inFile = 0;
+    const auto values = loadPixels<std::uint16_t>(stbi_load_16_from_memory, bytes, name, 3, inFile);
     return toVectors(values.get(), pixels,
                      [](std::uint16_t v) { return linearFromSrgb(static_cast<float>(v) / 65535); });
 }
@@ -160,7 +163,10 @@ DecodedImage decodeImage(Bytes bytes, const std::string& nameForErrors) {
     DecodedImage image;
     readSize(bytes, nameForErrors, image);
     requireWholeFile(bytes, nameForErrors);
-    const auto rgba = loadPixels<std::uint8_t>(stbi_load_from_memory, bytes, nameForErrors, 4);
+    int inFile = 0;
+    const auto rgba =
+        loadPixels<std::uint8_t>(stbi_load_from_memory, bytes, nameForErrors, 4, inFile);
+    image.hasAlpha = inFile == 2 || inFile == 4;
     image.srgb8.assign(rgba.get(), rgba.get() + 4 * pixelCount(image.width, image.height));
     return image;
 }

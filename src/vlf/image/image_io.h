@@ -23,6 +23,7 @@ struct DecodedImage {
     int width = 0, height = 0;
     std::vector<std::uint8_t> srgb8;  ///< RGBA, 4 bytes a pixel; RGB sRGB-encoded, A linear
     std::vector<Vec3> linear;         ///< linear RGB, of high dynamic range files (EXR, HDR)
+    bool hasAlpha = false;            ///< the file has an alpha channel; else A is 255
 };
 
 /// Decodes a whole image file held in memory (format found by content). `nameForErrors` is put in

@@ -16,8 +16,12 @@ bool isWebp(std::span<const std::uint8_t> bytes) {
 
 DecodedImage decodeWebp(std::span<const std::uint8_t> bytes, const std::string& name) {
     DecodedImage image;
-    if (!WebPGetInfo(bytes.data(), bytes.size(), &image.width, &image.height))
+    WebPBitstreamFeatures features;
+    if (WebPGetFeatures(bytes.data(), bytes.size(), &features) != VP8_STATUS_OK)
         throw InputError(name + ": damaged image: the header of a WebP file ends early");
+    image.width = features.width;
+    image.height = features.height;
+    image.hasAlpha = features.has_alpha != 0;
     requireImageSize(image.width, image.height, bytes.size(), name);
     image.srgb8.resize(4 * static_cast<std::size_t>(image.width) * image.height);
     if (!WebPDecodeRGBAInto(bytes.data(), bytes.size(), image.srgb8.data(), image.srgb8.size(),

@@ -109,5 +109,78 @@ TEST_F(ImportGltfMaterial, AppliesTextureTransformsAndSamplers) {
     EXPECT_EQ(scene.textures[0].wrapV, Wrap::mirror);
 }
 
+/// A picture in BMP whose left half is transparent.
+std::string halfTransparent() {
+    constexpr int kSize = 32, kHeader = 122;  // BITMAPV4HEADER
+    std::string bytes(kHeader + 4 * kSize * kSize, '\0');
+    const auto put = [&](std::size_t at, std::uint32_t value) {
+        std::memcpy(&bytes[at], &value, 4);
+    };
+    bytes[0] = 'B';
+    bytes[1] = 'M';
+    put(2, static_cast<std::uint32_t>(bytes.size()));
+    put(10, kHeader);
+    put(14, 108);
+    put(18, kSize);
+    put(22, kSize);
+    put(26, 1 | 32 << 16);
+    put(30, 3);
+    put(54, 0xff0000);
+    put(58, 0xff00);
+    put(62, 0xff);
+    put(66, 0xff000000);
+    for (std::size_t i = 0; i < kSize * kSize; ++i)
+        put(kHeader + 4 * i, i % kSize < kSize / 2 ? 0x00ffffff : 0xffffffff);
+    return bytes;
+}
+
+class ImportGltfMask : public test::GltfTest {
+  protected:
+    Document document() {
+        Document result;
+        result.addTexture({{"uri", "half.bmp"}});
+        result.root["samplers"] = {{{"wrapS", 33071}, {"wrapT", 33071}}};
+        result.root["textures"][0]["sampler"] = 0;
+        write("half.bmp", halfTransparent());
+        return result;
+    }
+};
+
+TEST_F(ImportGltfMask, IsOpaqueUnlessTheAlphaModeSaysOtherwise) {
+    EXPECT_EQ(test::totalArea(import(document())), 1.0f);
+}
+
+TEST_F(ImportGltfMask, CutsHolesWhereAlphaIsBelowTheCutoff) {
+    Document masked = document();
+    masked.material()["alphaMode"] = "MASK";
+    EXPECT_NEAR(test::totalArea(import(masked)), 0.5f, 0.01f);
+    masked.material()["alphaCutoff"] = 0;
+    EXPECT_EQ(test::totalArea(import(masked)), 1.0f);
+    masked.material()["alphaCutoff"] = 0.9;
+    masked.material()["pbrMetallicRoughness"]["baseColorFactor"] = {1, 1, 1, 0.8};
+    masked.primitive()["material"] = 0;
+    EXPECT_NE(errorOf(masked).find("no triangle"), std::string::npos);
+    EXPECT_EQ(warningsWith("transparent all over"), 1);
+}
+
+TEST_F(ImportGltfMask, MakesBlendingAMaskWithAWarning) {
+    Document blended = document();
+    blended.material()["alphaMode"] = "BLEND";
+    EXPECT_NEAR(test::totalArea(import(blended)), 0.5f, 0.01f);
+    EXPECT_EQ(warningsWith("blending is not supported"), 1);
+}
+
+TEST_F(ImportGltfMask, KeepsItsCoordinatesWhereVertexColoursArePainted) {
+    Document coloured = document();
+    coloured.material()["alphaMode"] = "MASK";
+    coloured.primitive()["attributes"]["COLOR_0"] =
+        coloured.addFloats({1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 1, 1}, "VEC3");
+    const Scene scene = import(coloured);
+    EXPECT_NEAR(test::totalArea(scene), 0.5f, 0.01f);
+    for (const Vec3& p : scene.positions) EXPECT_GT(p.x, 0.48f);
+    const Vec3 corner = diffuseReflectance(scene, scene.material(0), scene.uvs[0]);
+    EXPECT_LT(maxComponent(corner), 1.01f);
+}
+
 }  // namespace
 }  // namespace vlf

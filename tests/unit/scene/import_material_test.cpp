@@ -119,10 +119,46 @@ TEST_F(ImportMtl, PrefersDToTr) {
     EXPECT_TRUE(report_.warnings.empty());
 }
 
-TEST_F(ImportMtl, WarnsOfAlphaMasks) {
-    importMaterial("Kd 0.5 0.5 0.5\nmap_d leaf.png\n");
-    EXPECT_EQ(warningsWith("'paint': alpha masks are not supported"), 1);
-    EXPECT_EQ(scene_.triangles.size(), 2u);
+/// A mask whose left half is transparent, on a unit square.
+class ImportMask : public test::ImportTest {
+  protected:
+    float solidArea(const std::string& statements) {
+        Image half(32, 32, Vec3(1));
+        for (int y = 0; y < 32; ++y)
+            for (int x = 0; x < 16; ++x) half.at(x, y) = Vec3(0);
+        writePng(path("half.png"), half);
+        write("m.mtl", "newmtl paint\nKd 0.5 0.5 0.5\n" + statements);
+        return test::totalArea(
+            import(write("a.obj",
+                         "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\n"
+                         "vt 1 1\nvt 0 1\nusemtl paint\nf 1/1 2/2 3/3 4/4\n")));
+    }
+};
+
+TEST_F(ImportMask, CutsHolesByTheLuminanceOfMapD) {
+    EXPECT_NEAR(solidArea("map_d -clamp on half.png\n"), 0.5f, 0.01f);
+    EXPECT_EQ(warningsWith("alpha masks: 2 triangles are cut into"), 1);
+    EXPECT_TRUE(std::any_of(report_.files.begin(), report_.files.end(),
+                            [](const FileStamp& f) { return f.path.ends_with("half.png"); }));
+}
+
+TEST_F(ImportMask, TakesTheChannelOfImfchan) {
+    EXPECT_NEAR(solidArea("map_d -clamp on -imfchan g half.png\n"), 0.5f, 0.01f);
+    EXPECT_NEAR(solidArea("map_d -clamp on -imfchan m half.png\n"), 1.0f, 0.0f);
+}
+
+TEST_F(ImportMask, AppliesItsTextureTransform) {
+    EXPECT_NEAR(solidArea("map_d -clamp on -s 0.5 1 1 -o 0.3 0 0 half.png\n"), 0.6f, 0.01f);
+    EXPECT_NEAR(solidArea("map_d -clamp on -o 0.25 0 0 half.png\n"), 0.75f, 0.01f);
+}
+
+TEST_F(ImportMask, WarnsOfMasksThatAreMissing) {
+    EXPECT_EQ(solidArea("map_d leaf.png\n"), 1.0f);
+    EXPECT_EQ(warningsWith("'paint': alpha mask 'leaf.png' not found; opaque"), 1);
+}
+
+TEST_F(ImportMask, IsNoMatterOfTheDiffuseTexture) {
+    EXPECT_EQ(solidArea("map_Kd half.png\n"), 1.0f);
 }
 
 }  // namespace

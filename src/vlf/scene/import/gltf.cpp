@@ -1,6 +1,7 @@
 // glTF 2.0 to Scene: nodes with their meshes and cameras.
 
 #include "vlf/scene/camera_view.h"
+#include "vlf/scene/import/alpha_mask.h"
 #include "vlf/scene/import/file_bytes.h"
 #include "vlf/scene/import/gltf_file.h"
 #include "vlf/scene/import/gltf_material.h"
@@ -72,10 +73,10 @@ class GltfImporter {
   public:
     GltfImporter(const GltfFile& file, ImportReport& report) : file_(file), report_(report) {}
 
-    Scene run() {
+    ImportedScene run() {
         visitNodes();
         checkTriangleCount(triangleCount(), file_.path);
-        materials_ = addGltfMaterials(scene_, file_, report_);
+        materials_ = addGltfMaterials(scene_, masked_, file_, report_);
         for (const int index : nodes_) {
             const tinygltf::Node& node = file_.model.nodes[index];
             if (node.mesh >= 0) addMesh(index);
@@ -89,7 +90,7 @@ class GltfImporter {
             warn(report_, file_.at("extensions"),
                  fmt::format("{} lights of KHR_lights_punctual are not supported and left out",
                              file_.model.lights.size()));
-        return std::move(scene_);
+        return {std::move(scene_), std::move(masked_)};
     }
 
   private:
@@ -125,8 +126,8 @@ class GltfImporter {
         return count <= kMaxFileBytes ? count : 0;
     }
 
-    /// Number of triangles of all nodes, before anything is read; of vertices that no triangle uses,
-    /// as many as they would make.
+    /// Number of triangles of all nodes, before anything is read; of vertices that no triangle
+    /// uses, as many as they would make.
     std::size_t triangleCount() const {
         const tinygltf::Model& model = file_.model;
         std::size_t count = 0;
@@ -186,13 +187,27 @@ class GltfImporter {
         if (!material.index) return;
         GltfPrimitive primitive =
             readPrimitive(file_, source, morphWeights(node), material, element);
-        const std::uint32_t painted = painter_.paint(primitive, *material.index, source);
+        const std::uint32_t painted = paint(primitive, *material.index, source);
         if (file_.model.nodes[node].skin >= 0 && source.attributes.contains("JOINTS_0"))
             place(primitive, worldFromSkinnedVertices(file_, node, source, pose_, element), where);
         else
             place(primitive, std::span(&*pose_[node], 1), where);
         if (primitive.normals.empty()) primitive.unshare();
         append(primitive, painted);
+    }
+
+    /// Painting gives the primitive a material and texture coordinates of its own; masks keep
+    /// theirs.
+    std::uint32_t paint(GltfPrimitive& primitive, std::uint32_t material,
+                        const tinygltf::Primitive& source) {
+        const auto mask = masked_.masks.find(material);
+        if (mask != masked_.masks.end()) primitive.maskUvs = primitive.uvs;
+        const std::uint32_t painted = painter_.paint(primitive, material, source);
+        if (painted == material)
+            primitive.maskUvs.clear();
+        else if (mask != masked_.masks.end())
+            masked_.masks[painted] = AlphaMask(mask->second);
+        return painted;
     }
 
     /// The node's, else the mesh's.
@@ -208,6 +223,8 @@ class GltfImporter {
         extend(scene_.positions, primitive.positions);
         extend(scene_.normals, primitive.normals);
         extend(scene_.uvs, primitive.uvs);
+        for (std::size_t i = 0; i < primitive.maskUvs.size(); ++i)
+            masked_.uvs[first + static_cast<std::uint32_t>(i)] = primitive.maskUvs[i];
         const std::vector<std::uint32_t>& corners = primitive.corners;
         for (std::size_t i = 0; i + 2 < corners.size(); i += 3)
             scene_.triangles.push_back(
@@ -235,6 +252,7 @@ class GltfImporter {
     const GltfFile& file_;
     ImportReport& report_;
     Scene scene_;
+    MaskedMaterials masked_;
     std::vector<int> nodes_;  ///< of the scene
     GltfPose pose_;
     GltfPainter painter_{scene_};
@@ -244,7 +262,7 @@ class GltfImporter {
 
 }  // namespace
 
-Scene importGltf(const std::string& path, ImportReport& report) {
+ImportedScene importGltf(const std::string& path, ImportReport& report) {
     return GltfImporter(readGltf(path, report), report).run();
 }
 

@@ -18,6 +18,9 @@ namespace {
 /// A metal smoother than this is a mirror (perceptual roughness of glTF).
 constexpr double kMirrorRoughness = 0.05;
 
+/// Opacity from which on a surface that is to be blended is solid.
+constexpr double kBlendCutoff = 0.5;
+
 Vec3 toVec3(const std::vector<double>& v, const Vec3& otherwise) {
     return v.size() < 3 ? otherwise : Vec3(v[0], v[1], v[2]);
 }
@@ -129,8 +132,9 @@ bool isKtx2(const GltfBytes& bytes) {
 
 class MaterialBuilder {
   public:
-    MaterialBuilder(Scene& scene, const GltfFile& file, ImportReport& report)
-        : scene_(scene), file_(file), report_(report) {}
+    MaterialBuilder(Scene& scene, MaskedMaterials& masked, const GltfFile& file,
+                    ImportReport& report)
+        : scene_(scene), masked_(masked), file_(file), report_(report) {}
 
     GltfMaterial add(int i) {
         const tinygltf::Material& m = file_.model.materials[i];
@@ -138,8 +142,6 @@ class MaterialBuilder {
         const Surface surface = surfaceOf(m);
         GltfMaterial result;
         if (leaveOutTransparent(opacityOf(m, surface), report_, where)) return result;
-        if (m.alphaMode == "MASK" || (m.alphaMode == "BLEND" && surface.baseTexture.index >= 0))
-            warn(report_, where, "alpha masks are not supported; treated as opaque");
         if (m.extensions.contains("KHR_materials_pbrSpecularGlossiness"))
             warn(report_, where, "specular-glossiness: the specular part is left out");
         if (m.normalTexture.index >= 0)
@@ -159,7 +161,9 @@ class MaterialBuilder {
         result.uv = emissionAlone ? emissionUv : baseUv;
         if (material.emissionTexture >= 0 && !(emissionUv == result.uv))
             result.emissionUv = emissionUv;
-        result.index = static_cast<std::uint32_t>(scene_.materials.size());
+        const auto index = static_cast<std::uint32_t>(scene_.materials.size());
+        if (!addMask(m, surface, index, where)) return result;
+        result.index = index;
         scene_.materials.push_back(std::move(material));
         return result;
     }
@@ -168,7 +172,8 @@ class MaterialBuilder {
     static float opacityOf(const tinygltf::Material& m, const Surface& surface) {
         const double transmission =
             extensionNumber(m.extensions, "KHR_materials_transmission", "transmissionFactor", 0);
-        const double alpha = m.alphaMode == "BLEND" ? surface.alpha : 1;
+        const bool isBlended = m.alphaMode == "BLEND" && surface.baseTexture.index < 0;
+        const double alpha = isBlended ? surface.alpha : 1;
         return static_cast<float>(std::min(alpha, 1 - transmission));
     }
 
@@ -255,18 +260,56 @@ class MaterialBuilder {
         return means_[source] = image ? meanGreenBlue(*image) : glm::dvec2(1);
     }
 
+    /// The mask of a material, if it has one; false if nothing of its surfaces is solid.
+    bool addMask(const tinygltf::Material& m, const Surface& surface, std::uint32_t material,
+                 const SourceLocation& where) {
+        const bool isBlended = m.alphaMode == "BLEND";
+        const int texture = surface.baseTexture.index;
+        if (m.alphaMode != "MASK" && !(isBlended && texture >= 0)) return true;
+        if (isBlended)
+            warn(report_, where,
+                 "blending is not supported; what is less than half opaque is left out, the rest "
+                 "is opaque");
+        const double cutoff = isBlended ? kBlendCutoff : m.alphaCutoff;
+        if (surface.alpha < cutoff) {
+            warn(report_, where, "transparent all over; its surfaces are left out");
+            return false;
+        }
+        const int image = cutoff > 0 ? loadMask(texture, where) : -1;
+        if (image >= 0)
+            masked_.masks[material] = {image, static_cast<float>(cutoff / surface.alpha)};
+        return true;
+    }
+
+    /// Index of the alpha channel of a texture; -1: it has none.
+    int loadMask(int index, const SourceLocation& where) {
+        if (index < 0) return -1;
+        const tinygltf::Texture& texture = file_.model.textures[index];
+        const tinygltf::Sampler sampler =
+            texture.sampler < 0 ? tinygltf::Sampler{} : file_.model.samplers[texture.sampler];
+        const Wrap wrapU = wrapOf(sampler.wrapS), wrapV = wrapOf(sampler.wrapT);
+        const auto key = std::make_tuple(imageOf(texture, where), wrapU, wrapV);
+        const auto [entry, isNew] = masks_.try_emplace(key, -1);
+        if (!isNew) return entry->second;
+        const auto image = decode(std::get<0>(key), where);
+        if (!image || !image->hasAlpha) return -1;
+        masked_.images.emplace_back(*image, AlphaSource::alpha, wrapU, wrapV);
+        return entry->second = static_cast<int>(masked_.images.size()) - 1;
+    }
+
     Scene& scene_;
+    MaskedMaterials& masked_;
     const GltfFile& file_;
     ImportReport& report_;
-    std::map<std::tuple<int, Wrap, Wrap>, int> textures_;
+    std::map<std::tuple<int, Wrap, Wrap>, int> textures_, masks_;
     std::map<int, glm::dvec2> means_;
 };
 
 }  // namespace
 
-std::vector<GltfMaterial> addGltfMaterials(Scene& scene, const GltfFile& file,
-                                           ImportReport& report) {
-    MaterialBuilder builder(scene, file, report);
+std::vector<GltfMaterial> addGltfMaterials(Scene& scene, MaskedMaterials& masked,
+                                           const GltfFile& file, ImportReport& report) {
+    MaterialBuilder builder(scene, masked, file, report);
     std::vector<GltfMaterial> result;
     for (std::size_t i = 0; i < file.model.materials.size(); ++i)
         result.push_back(builder.add(static_cast<int>(i)));

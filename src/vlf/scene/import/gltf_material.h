@@ -1,6 +1,7 @@
 #pragma once
 // Materials of glTF files.
 
+#include "vlf/scene/import/alpha_mask.h"
 #include "vlf/scene/import/gltf_file.h"
 
 #include <cstdint>
@@ -26,9 +27,10 @@ struct GltfMaterial {
     std::optional<GltfUvMapping> emissionUv;  ///< of the emission texture, if it has another
 };
 
-/// Adds the materials of the file and their textures to the scene. The result runs parallel to the
+/// Adds the materials of the file and their textures to the scene, and their alpha masks to
+/// `masked`. The result runs parallel to the
 /// file's materials. Images that are missing or cannot be decoded are reported.
-std::vector<GltfMaterial> addGltfMaterials(Scene& scene, const GltfFile& file,
-                                           ImportReport& report);
+std::vector<GltfMaterial> addGltfMaterials(Scene& scene, MaskedMaterials& masked,
+                                           const GltfFile& file, ImportReport& report);
 
 }  // namespace vlf

@@ -151,6 +151,7 @@ void GltfPrimitive::unshare() {
     gather(normals, corners);
     gather(uvs, corners);
     gather(emissionUvs, corners);
+    gather(maskUvs, corners);
     gather(colors, corners);
     std::iota(corners.begin(), corners.end(), 0u);
 }

@@ -19,6 +19,7 @@ struct GltfPrimitive {
     std::vector<Vec3> normals;      ///< empty: none are given, its triangles are flat
     std::vector<Vec2> uvs;          ///< zeros where the mesh has none
     std::vector<Vec2> emissionUvs;  ///< of the emission texture; empty: as uvs
+    std::vector<Vec2> maskUvs;      ///< of the alpha mask; empty: as uvs
     std::vector<Vec3> colors;       ///< factors of the reflectance, in [0, 1]; empty: white
     std::vector<std::uint32_t> corners;
 

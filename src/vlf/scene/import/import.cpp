@@ -1,5 +1,6 @@
 #include "vlf/scene/import/import.h"
 
+#include "vlf/scene/import/cut_masks.h"
 #include "vlf/scene/import/limits.h"
 #include "vlf/scene/import/warn.h"
 
@@ -16,7 +17,7 @@ namespace {
 /// Distance from the origin, in sizes of the scene, from which on single precision shows.
 constexpr float kFarAway = 1000;
 
-Scene importFile(const std::string& path, ImportReport& report) {
+ImportedScene readSceneFile(const std::string& path, ImportReport& report) {
     std::string extension = std::filesystem::path(path).extension().string();
     std::transform(extension.begin(), extension.end(), extension.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
@@ -24,6 +25,13 @@ Scene importFile(const std::string& path, ImportReport& report) {
     if (extension == ".gltf" || extension == ".glb") return importGltf(path, report);
     throw InputError({path, 0, ""},
                      fmt::format("unknown scene format '{}'; use .obj, .gltf or .glb", extension));
+}
+
+/// With holes where masks are transparent.
+Scene importFile(const std::string& path, ImportReport& report) {
+    ImportedScene imported = readSceneFile(path, report);
+    cutMasks(imported.scene, imported.masked, path, report);
+    return std::move(imported.scene);
 }
 
 std::string joined(const std::vector<std::string>& paths) {

@@ -25,9 +25,11 @@ struct ImportReport {
 /// InputError if the merged scene has no triangle.
 Scene importScene(const std::vector<std::string>& paths, ImportReport& report);
 
-/// One file, not yet cleaned: used by importScene.
-Scene importObj(const std::string& path, ImportReport& report);
-Scene importGltf(const std::string& path, ImportReport& report);
+struct ImportedScene;
+
+/// One file, not yet cleaned, its masks (alpha_mask.h) not yet cut: used by importScene.
+ImportedScene importObj(const std::string& path, ImportReport& report);
+ImportedScene importGltf(const std::string& path, ImportReport& report);
 
 /// Drops degenerate and repeated triangles, computes missing (zero) normals, scales reflectances
 /// that sum to more than one, limits emission, drops unused vertices, replaces texture coordinates

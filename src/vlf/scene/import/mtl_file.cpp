@@ -164,6 +164,7 @@ class MtlParser {
             words = ahead;
         }
         if (option.name == "-clamp") map.clamp = operands[0] == "on";
+        if (option.name == "-imfchan") map.channel = operands[0].empty() ? '\0' : operands[0][0];
         if (option.name == "-s") map.scale = toVec2(operands, map.scale);
         if (option.name == "-o") map.offset = toVec2(operands, map.offset);
     }

@@ -17,6 +17,7 @@ struct MtlTexture {
     int line = 0;
     Vec2 scale{1}, offset{0};  ///< of the texture coordinates: uv' = scale * uv + offset
     bool clamp = false;
+    char channel = 0;  ///< of -imfchan: r, g, b, m (alpha), l (luminance) or z; 0: none
 };
 
 /// One material; what the file does not say is left unset.

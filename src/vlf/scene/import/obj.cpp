@@ -1,5 +1,6 @@
 // Wavefront OBJ to Scene: triangulation, missing normals, one index per vertex.
 
+#include "vlf/scene/import/alpha_mask.h"
 #include "vlf/scene/import/camera_file.h"
 #include "vlf/scene/import/file_bytes.h"
 #include "vlf/scene/import/import.h"
@@ -138,18 +139,20 @@ void addTriangles(Scene& scene, ObjFile& file, const std::vector<ObjMaterial>& m
 
 }  // namespace
 
-Scene importObj(const std::string& path, ImportReport& report) {
+ImportedScene importObj(const std::string& path, ImportReport& report) {
     noteFile(report, path);
     ObjFile file = parseObj(path, readFileText(path), report);
     const std::string stem = std::filesystem::path(path).stem().string();
     for (ObjName& part : file.parts)
         if (part.name.empty()) part.name = stem;
-    Scene scene;
-    const std::vector<ObjMaterial> materials = addObjMaterials(scene, file, report);
+    ImportedScene imported;
+    Scene& scene = imported.scene;
+    const std::vector<ObjMaterial> materials =
+        addObjMaterials(scene, imported.masked, file, report);
     addMissingNormals(file);
     addTriangles(scene, file, materials);
     scene.cameras = readCameraSidecar(path, report);
-    return scene;
+    return imported;
 }
 
 }  // namespace vlf

@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <map>
 #include <set>
+#include <tuple>
 #include <unordered_map>
 
 namespace vlf {
@@ -53,6 +54,27 @@ bool isPositive(const std::optional<Vec3>& colour) {
     return colour && maxComponent(*colour) > 0;
 }
 
+/// Opacity d times that of map_d from which on a surface is solid.
+constexpr float kMaskThreshold = 0.5f;
+
+/// What -imfchan says, or nothing ('\0').
+AlphaSource alphaSource(char channel) {
+    switch (channel) {
+        case 'r':
+            return AlphaSource::red;
+        case 'g':
+            return AlphaSource::green;
+        case 'b':
+            return AlphaSource::blue;
+        case 'm':
+            return AlphaSource::alpha;
+        case 'l':
+            return AlphaSource::luminance;
+        default:
+            return AlphaSource::alphaOrLuminance;
+    }
+}
+
 enum class Specular { none, mirror, glossy };
 
 Specular specularKind(const MtlMaterial& m) {
@@ -79,14 +101,13 @@ Vec3 factorOf(const std::optional<Vec3>& factor, int texture, const Vec3& otherw
 
 class MaterialBuilder {
   public:
-    MaterialBuilder(Scene& scene, ImportReport& report) : scene_(scene), report_(report) {}
+    MaterialBuilder(Scene& scene, MaskedMaterials& masked, ImportReport& report)
+        : scene_(scene), masked_(masked), report_(report) {}
 
     ObjMaterial add(const MtlMaterial& m) {
         const SourceLocation where{m.path, m.line, fmt::format("material '{}'", m.name)};
         ObjMaterial result;
         if (leaveOutTransparent(opacityOf(m), report_, where)) return result;
-        if (!m.opacityMap.file.empty())
-            warn(report_, where, "alpha masks are not supported; treated as opaque");
         setTextureTransform(result, m, where);
         Material material;
         material.name = m.name;
@@ -98,6 +119,8 @@ class MaterialBuilder {
         material.emission = factorOf(m.emission, material.emissionTexture, Vec3(0));
         addSpecular(material, m);
         result.index = addMaterial(std::move(material));
+        if (const int mask = loadMask(m); mask >= 0)
+            masked_.masks[*result.index] = {mask, kMaskThreshold / m.opacity.value_or(1)};
         return result;
     }
 
@@ -128,7 +151,8 @@ class MaterialBuilder {
     void setTextureTransform(ObjMaterial& result, const MtlMaterial& m,
                              const SourceLocation& where) {
         const MtlTexture* first = nullptr;
-        for (const MtlTexture* map : {&m.diffuseMap, &m.emissionMap, &m.specularMap}) {
+        for (const MtlTexture* map :
+             {&m.diffuseMap, &m.emissionMap, &m.specularMap, &m.opacityMap}) {
             if (map->file.empty()) continue;
             if (!first) {
                 first = map;
@@ -170,9 +194,39 @@ class MaterialBuilder {
         return static_cast<int>(scene_.textures.size()) - 1;
     }
 
+    /// Index of the alpha mask, -1 if there is none or (with a warning) it cannot be read.
+    int loadMask(const MtlMaterial& m) {
+        const MtlTexture& map = m.opacityMap;
+        if (map.file.empty()) return -1;
+        const SourceLocation where{m.path, map.line, fmt::format("material '{}'", m.name)};
+        const auto path = findNoted(m.path, map.file, report_);
+        if (!path) {
+            warn(report_, where, fmt::format("alpha mask '{}' not found; opaque", map.file));
+            return -1;
+        }
+        const auto key = std::tuple(path->string(), map.clamp, map.channel);
+        const auto [entry, isNew] = masks_.try_emplace(key, -1);
+        if (isNew) entry->second = readMask(path->string(), map, where);
+        return entry->second;
+    }
+
+    int readMask(const std::string& path, const MtlTexture& map, const SourceLocation& where) {
+        const Wrap wrap = map.clamp ? Wrap::clamp : Wrap::repeat;
+        try {
+            masked_.images.emplace_back(readTextureImage(path), alphaSource(map.channel), wrap,
+                                        wrap);
+        } catch (const Error& error) {
+            warn(report_, where, fmt::format("{}; opaque", error.what()));
+            return -1;
+        }
+        return static_cast<int>(masked_.images.size()) - 1;
+    }
+
     Scene& scene_;
+    MaskedMaterials& masked_;
     ImportReport& report_;
     std::map<std::pair<std::string, bool>, int> textures_;
+    std::map<std::tuple<std::string, bool, char>, int> masks_;
 };
 
 /// The operand of mtllib is one name or several, each perhaps with blanks in it: the longest runs
@@ -234,9 +288,10 @@ std::unordered_map<std::string, MtlMaterial> readLibraries(const ObjFile& file,
 
 }  // namespace
 
-std::vector<ObjMaterial> addObjMaterials(Scene& scene, const ObjFile& file, ImportReport& report) {
+std::vector<ObjMaterial> addObjMaterials(Scene& scene, MaskedMaterials& masked, const ObjFile& file,
+                                         ImportReport& report) {
     const auto library = readLibraries(file, report);
-    MaterialBuilder builder(scene, report);
+    MaterialBuilder builder(scene, masked, report);
     std::vector<ObjMaterial> result;
     for (const ObjName& used : file.materials) {
         const auto found = library.find(used.name);

@@ -1,6 +1,7 @@
 #pragma once
 // Materials of OBJ files.
 
+#include "vlf/scene/import/alpha_mask.h"
 #include "vlf/scene/import/mtl_file.h"
 #include "vlf/scene/import/obj_file.h"
 
@@ -16,8 +17,10 @@ struct ObjMaterial {
 };
 
 /// Reads the material libraries of the file and adds the materials that it uses, and their
-/// textures, to the scene. The result runs parallel to file.materials; one more at the end stands
-/// for faces without usemtl. Unknown materials and missing libraries or textures are reported.
-std::vector<ObjMaterial> addObjMaterials(Scene& scene, const ObjFile& file, ImportReport& report);
+/// textures, to the scene, and their alpha masks to `masked`. The result runs parallel to
+/// file.materials; one more at the end stands for faces without usemtl. Unknown materials and
+/// missing libraries or textures are reported.
+std::vector<ObjMaterial> addObjMaterials(Scene& scene, MaskedMaterials& masked, const ObjFile& file,
+                                         ImportReport& report);
 
 }  // namespace vlf
