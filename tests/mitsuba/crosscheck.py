@@ -33,7 +33,8 @@ from agreement import judge
 
 VIEWS = [("cornell", "front"), ("cornell", "corner"), ("mirror-room", "front"),
          ("mirror-room", "mirror"), ("two-rooms", "overview"), ("two-rooms", "door"),
-         ("grotto", None), ("gloss", "front"), ("gloss", "floor")]
+         ("grotto", None), ("gloss", "front"), ("gloss", "floor"),
+         ("glass", "front"), ("glass", "ball"), ("glass", "pane")]
 REGIONS = (4, 3)  # columns, rows
 BATCHES = 32  # independent Mitsuba renderings, whose spread is their error
 

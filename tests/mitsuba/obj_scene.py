@@ -2,7 +2,8 @@
 
 Materials reflect Kd diffusely and Ks as a mirror, on both sides: with illum 3 a perfect one, with
 illum 2 and Pr one of that perceptual roughness. Ke is radiance that leaves the side of the winding
-normal. Maps multiply their colour.
+normal. Maps multiply their colour. illum 7 is glass of index Ni and filter Tf: refracting where the
+triangles of a material enclose a solid, else a thin pane.
 """
 
 import json
@@ -25,6 +26,7 @@ class Material:
     maps: dict = field(default_factory=dict)  # "Kd" -> Texture
     illum: int = 1
     roughness: float = 0.0  # Pr
+    ior: float = 1.5  # Ni
 
     def colour(self, key):
         return np.array(self.colours.get(key, [0.0, 0.0, 0.0]))
@@ -41,7 +43,9 @@ def read_materials(path):
                 current.illum = int(words[1])
             elif words[0] == "Pr":
                 current.roughness = float(words[1])
-            elif words[0] in ("Kd", "Ks", "Ke"):
+            elif words[0] == "Ni":
+                current.ior = float(words[1])
+            elif words[0] in ("Kd", "Ks", "Ke", "Tf"):
                 current.colours[words[0]] = [float(w) for w in words[1:4]]
             elif words[0].startswith("map_"):
                 clamp = words[1:3] == ["-clamp", "on"]
@@ -146,6 +150,24 @@ def rough(material):
                                          "diffuse": diffuse, "mirror": mirror}}
 
 
+def is_closed(vertices, triangles):
+    """Whether every edge, its ends told by position, is of two triangles."""
+    _, place = np.unique(vertices[:, :3], axis=0, return_inverse=True)
+    corners = place.reshape(-1)[triangles]
+    edges = np.sort(np.concatenate([corners[:, [0, 1]], corners[:, [1, 2]], corners[:, [2, 0]]]), axis=1)
+    return bool((np.unique(edges, axis=0, return_counts=True)[1] == 2).all())
+
+
+def glass(material, closed):
+    filter_ = material.colour("Tf")
+    common = {"int_ior": material.ior, "ext_ior": 1.0}
+    if not closed:
+        return {"type": "thindielectric", **common,
+                "specular_transmittance": {"type": "rgb", "value": filter_.tolist()}}
+    return {"type": "dielectric", **common,
+            "specular_transmittance": {"type": "rgb", "value": np.sqrt(filter_).tolist()}}
+
+
 def bsdf(material):
     if material.illum == 2 and material.roughness > 0:
         return rough(material)
@@ -174,7 +196,9 @@ def shape(vertices, triangles, material, path):
     flipped = vertices * [1, 1, 1, 1, 1, 1, 1, -1] + [0, 0, 0, 0, 0, 0, 0, 1]
     used, index = np.unique(triangles, return_inverse=True)
     write_ply(path, flipped[used], index.reshape(-1, 3))
-    result = {"type": "ply", "filename": path, "bsdf": bsdf(material)}
+    is_glass = material.illum == 7
+    result = {"type": "ply", "filename": path,
+              "bsdf": glass(material, is_closed(vertices, triangles)) if is_glass else bsdf(material)}
     if material.colour("Ke").max() > 0:
         result["emitter"] = {"type": "area", "radiance": textured(material, "Ke")}
     return result

@@ -104,6 +104,19 @@ TEST(PathTracing, AgreesBesideRoughMirrors) {
     expectAgreement("gloss", errorAgainstPathTracing(s, anywhere), 0.03, 0.004);
 }
 
+TEST(PathTracing, AgreesBesideGlass) {
+    const SolvedScene s(generateScene("glass"), standardTransport(15000));
+    // What glass receives nobody needs.
+    const auto isDiffuse = [&](std::size_t i) {
+        const Chart& chart = s.state.unwrap.charts[s.state.unwrap.texelChart[i]];
+        return !s.scene.materials[chart.material].isGlass();
+    };
+    const IrradianceError e = errorAgainstPathTracing(s, isDiffuse);
+    std::printf("glass: relative RMSE %.3f %%, bias %+.3f %% (+- %.3f %%), truth's error %.3f %%\n",
+                100 * e.relativeRmse, 100 * e.bias, 100 * e.biasError, 100 * e.truthError);
+    EXPECT_LT(std::abs(e.bias), 3 * e.biasError + 0.005);
+}
+
 TEST(PathTracing, AgreesByTheCaustics) {
     const SolvedScene s(generateScene("caustic"), standardTransport(25000));
     const IrradianceError e = errorAgainstPathTracing(s, anywhere);

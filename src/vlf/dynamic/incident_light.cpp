@@ -209,8 +209,10 @@ void IncidentLightFinder::addEmitters(const Vec3& point, const Pattern& pattern,
             }
         }
     }
-    scratch.blocked.resize(scratch.rays.size());
-    rays_.occluded(scratch.rays, scratch.blocked);
+    scratch.passed.resize(scratch.rays.size());
+    rays_.transmittance(scratch.rays, scratch.passed);
+    scratch.blocked.clear();
+    for (const Vec3& passed : scratch.passed) scratch.blocked.push_back(passed == Vec3(0));
     if (any(body.others)) {
         startOutside(scratch.rays, *body.box, *body.pose);
         scratch.blockedByObjects.resize(scratch.rays.size());
@@ -219,7 +221,7 @@ void IncidentLightFinder::addEmitters(const Vec3& point, const Pattern& pattern,
             scratch.blocked[i] |= scratch.blockedByObjects[i];
     }
     for (std::size_t i = 0; i < scratch.rays.size(); ++i)
-        if (!scratch.blocked[i]) add(scratch.points[i], Vec3(1));
+        if (!scratch.blocked[i]) add(scratch.points[i], scratch.passed[i]);
 }
 
 /// Whether the way to the image meets exactly its mirrors, whose reflectances it is multiplied by.

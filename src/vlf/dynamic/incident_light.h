@@ -57,6 +57,7 @@ class IncidentLightFinder {
         std::vector<Ray> rays;
         std::vector<InstanceHit> hits;
         std::vector<std::uint8_t> blocked, blockedByObjects;
+        std::vector<Vec3> passed;
         std::vector<Vec3> seen;
         std::vector<float> solidAngles;
         std::vector<std::uint32_t> points;

@@ -40,7 +40,9 @@ ObjectMesh::ObjectMesh(Scene mesh) : scene(std::move(mesh)), rays(scene), closed
 
 ObjectModel::ObjectModel(Scene scene) {
     makeGlossDiffuse(scene);
-    if (scene.triangles.empty()) throw InputError("an object needs at least one triangle");
+    dropGlass(scene);
+    if (scene.triangles.empty())
+        throw InputError("an object needs at least one triangle that is not glass");
     bounds_ = boundingSphere(scene);
     emits_ = hasEmitter(scene);
     mirrors_ = hasMirror(scene);

@@ -104,7 +104,7 @@ RoomTexels makeRoomTexels(const Scene& scene, const RayScene& rays, const LightF
     for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) {
         const Material& material = scene.material(t);
         room.triangles.push_back({areaVector(scene, t), field.triangleCharts[t], kNoLight,
-                                  !material.isMirror() && !material.isEmitter()});
+                                  !material.isSpecular() && !material.isEmitter()});
     }
     for (std::uint32_t l = 0; l < room.sources.lights.size(); ++l)
         for (const std::uint32_t t : room.sources.lights[l].triangles) room.triangles[t].light = l;

@@ -19,7 +19,7 @@ Vec2 drawFor(const Ray& ray) {
                         bits(ray.origin.x) << 32 | bits(ray.origin.z));
     return random.next2();
 }
-}
+}  // namespace
 
 void SightTracer::trace(std::span<const Ray> rays, Sights& sights) {
     sights_ = &sights;
@@ -63,14 +63,17 @@ void SightTracer::meet(const Path& path, const Ray& ray, std::size_t i) {
 void SightTracer::meetRoom(const Path& path, const Ray& ray, const Hit& hit) {
     const RoomTriangle& triangle = room_.triangles[hit.triangle];
     const bool front = glm::dot(triangle.areaVector, ray.direction) < 0;
+    if (!triangle.plain && scene_.material(hit.triangle).isGlass())
+        return passGlass(path, ray, hit, front);
     const std::uint32_t chart = front ? triangle.charts.front : triangle.charts.back;
     const Vec3 position = ray.origin + hit.t * ray.direction;
     const std::uint32_t texel = chart == kNoChart ? kNoTexel : atlasTexel(chart, position);
     if (texel == kNoTexel || room_.excluded[texel]) {
-        if (path.reflections == 0) sights_->within[path.ray] = 1;
+        if (path.reflections == 0 && path.glass == 0) sights_->within[path.ray] = 1;
         return;
     }
-    if (triangle.plain && path.reflections == 0 && room_.source[texel] == texel) {
+    if (triangle.plain && path.reflections == 0 && path.glass == 0 &&
+        room_.source[texel] == texel) {
         sights_->texel[path.ray] = texel;
         sights_->distance[path.ray] = hit.t;
         return;
@@ -93,7 +96,8 @@ void SightTracer::meetRoom(const Path& path, const Ray& ray, const Hit& hit) {
     if (material.isEmitter() && (front || material.emitsBothSides)) {
         sight.emission =
             emittedRadiance(scene_, material, uvAt(scene_, hit.triangle, hit.barycentric));
-        sight.emissionApart = room_.sources.covers(path.reflections, path.planarOnly);
+        sight.emissionApart =
+            room_.sources.covers(path.reflections, path.planarOnly, path.glass > 0);
     }
     if (!material.isPureMirror() || material.isEmitter()) sights_->others.push_back(sight);
     if (!material.isMirror()) return;
@@ -104,6 +108,23 @@ void SightTracer::meetRoom(const Path& path, const Ray& ray, const Hit& hit) {
             {position, normal, side,
              mirrorReflectance(scene_, material, uvAt(scene_, hit.triangle, hit.barycentric)),
              material.roughness, rays_.epsilon(), planar && !material.isGlossy()});
+}
+
+/// Straight on, through solids too.
+void SightTracer::passGlass(Path path, const Ray& ray, const Hit& hit, bool front) {
+    const Material& glass = scene_.material(hit.triangle);
+    const Vec3 side = geometricNormal(scene_, hit.triangle) * (front ? 1.0f : -1.0f);
+    const Vec3 direction = glm::normalize(ray.direction);
+    const float share =
+        1 - (glass.thin ? paneReflectance(-glm::dot(side, direction), glass.ior)
+                        : fresnelReflectance(-glm::dot(side, direction), glass.ior));
+    path.throughput *= share * glass.transmission;
+    path.distance += hit.t;
+    path.planarOnly = path.planarOnly && glass.thin;
+    if (++path.glass > kMaxReflections || maxComponent(path.throughput) < kMinThroughput) return;
+    const Vec3 position = ray.origin + hit.t * ray.direction;
+    nextQueue_.push_back({position - rays_.epsilon() * side, ray.direction});
+    nextPaths_.push_back(path);
 }
 
 void SightTracer::meetObject(const Path& path, const Ray& ray, const InstanceHit& found) {
@@ -133,7 +154,8 @@ void SightTracer::meetObject(const Path& path, const Ray& ray, const InstanceHit
             {ray.origin + hit.t * ray.direction,
              object.pose.direction(shadingNormalAt(scene, hit.triangle, hit.barycentric)),
              sight.front ? winding : -winding, mirrorReflectance(scene, material, uv),
-             material.roughness, std::max(rays_.epsilon(), scale * object.mesh->rays.epsilon()), false});
+             material.roughness, std::max(rays_.epsilon(), scale * object.mesh->rays.epsilon()),
+             false});
 }
 
 void SightTracer::reflect(Path path, const Ray& ray, float t, const MirrorPoint& mirror) {

@@ -67,6 +67,7 @@ class SightTracer {
         bool planarOnly;
         float distance;
         Vec3 throughput;
+        int glass = 0;  // surfaces passed
     };
     /// Where a path meets a mirror.
     struct MirrorPoint {
@@ -78,6 +79,7 @@ class SightTracer {
     void findHits(std::span<const Ray> rays, bool first);
     void meet(const Path& path, const Ray& ray, std::size_t i);
     void meetRoom(const Path& path, const Ray& ray, const Hit& hit);
+    void passGlass(Path path, const Ray& ray, const Hit& hit, bool front);
     void meetObject(const Path& path, const Ray& ray, const InstanceHit& hit);
     void reflect(Path path, const Ray& ray, float t, const MirrorPoint& mirror);
     std::uint32_t atlasTexel(std::uint32_t chart, const Vec3& position) const;

@@ -16,7 +16,7 @@
 
 namespace vlf {
 
-inline constexpr std::uint32_t kFormatVersion = 2;
+inline constexpr std::uint32_t kFormatVersion = 3;
 
 /// Most bytes of a block before compression, and most bytes of memory it may fill.
 inline constexpr std::size_t kMaxBlockBytes = std::size_t{1} << 20;

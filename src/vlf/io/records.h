@@ -23,6 +23,7 @@ template <class S>
 void describe(S& s, Field<S, Material> m) {
     s(m.name, m.diffuse, m.mirror, m.emission);
     s(m.roughness, m.diffuseTexture, m.mirrorTexture, m.emissionTexture, m.emitsBothSides);
+    s(m.transmission, m.ior, m.thin);
 }
 
 template <class S>

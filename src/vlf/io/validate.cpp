@@ -74,6 +74,11 @@ void checkMaterials(const Scene& scene, const std::string& path) {
         const Material& m = scene.materials[i];
         check(isLight(m.diffuse) && isLight(m.mirror) && isLight(m.emission), i,
               "is not finite or negative");
+        check(isLight(m.transmission) && maxComponent(m.transmission) <= 1 && m.ior >= 1 &&
+                  m.ior <= kMostIor,
+              i, "is glass of a transmission or index of refraction out of range");
+        check(!m.isGlass() || !(maxComponent(m.diffuse) > 0 || m.isMirror() || m.isEmitter()), i,
+              "is glass and something else, too");
         check(m.roughness >= 0 && m.roughness <= 1, i, "has a roughness outside 0 to 1");
         for (const int t : {m.diffuseTexture, m.mirrorTexture, m.emissionTexture})
             check(t >= -1 && t < textures, i, "refers to a texture that does not exist");

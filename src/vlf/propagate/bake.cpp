@@ -6,6 +6,7 @@
 #include "vlf/propagate/fill_atlas.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <ctime>
 #include <utility>
@@ -41,6 +42,17 @@ FieldFrame frameOf(const Scene& scene) {
     return {sphere.centre, sphere.radius};
 }
 
+/// What a side of glass takes of diffuse light. A solid's loss at both surfaces is put down to its
+/// outside, as if all light that enters left it by another.
+Vec3 glassAbsorptance(const Material& m, bool front) {
+    if (!m.isGlass() || (!m.thin && !front)) return Vec3(0);
+    const float reflected = meanReflectance([&](float cosine) {
+        return m.thin ? paneReflectance(cosine, m.ior) : fresnelReflectance(cosine, m.ior);
+    });
+    const Vec3 passed = m.thin ? m.transmission : m.transmission * m.transmission;
+    return (1 - reflected) * (Vec3(1) - passed);
+}
+
 /// Mean reflectances over each texel's points. What a rough mirror takes of diffuse light counts as
 /// absorbed.
 void findReflectances(BakeState& state) {
@@ -48,9 +60,20 @@ void findReflectances(BakeState& state) {
     std::vector<float> mirrorAlbedo;
     for (const Material& m : state.scene.materials)
         mirrorAlbedo.push_back(m.isGlossy() ? ggxMeanAlbedo(m.roughness) : 1);
+    std::vector<std::array<Vec3, 2>> glass;
+    for (const Material& m : state.scene.materials)
+        glass.push_back({glassAbsorptance(m, true), glassAbsorptance(m, false)});
     state.reflectance.resize(u.texels.size());
     state.absorptance.resize(u.texels.size());
     parallelFor(u.texels.size(), 512, [&](std::size_t i) {
+        const Material& material = state.scene.materials[u.charts[u.texelChart[i]].material];
+        if (material.isGlass()) {
+            const bool front =
+                u.triangleCharts[u.points.of(i)[0].triangle].front == u.texelChart[i];
+            state.reflectance[i] = Vec3(0);
+            state.absorptance[i] = glass[u.charts[u.texelChart[i]].material][front ? 0 : 1];
+            return;
+        }
         const MeanReflectance mean = meanReflectance(state.scene, u.points.of(i));
         state.reflectance[i] = mean.diffuse;
         const float albedo = mirrorAlbedo[u.charts[u.texelChart[i]].material];
@@ -124,7 +147,7 @@ void fill(BakeState& state, const LightField& field, const char* stage,
           const RadianceParams& params, PartialRadiance& partial, Progress& progress,
           const BakeObserver& observe) {
     const bool any = std::any_of(field.charts.begin(), field.charts.end(), [&](const Chart& chart) {
-        return state.scene.materials[chart.material].isMirror(params.kind);
+        return state.scene.materials[chart.material].isSpecular(params.kind);
     });
     if (params.lines == 0 || !any) return;
     timed(state.report, progress, stage, [&] {

@@ -21,7 +21,7 @@ void addFace(const Scene& scene, const Unwrap& unwrap, std::uint32_t triangle, s
     faces.origin.push_back(c.y * unwrap.atlasWidth + c.x);
     faces.width.push_back(c.width);
     faces.height.push_back(c.height);
-    faces.flags.push_back((scene.material(triangle).isMirror() ? BundleFaces::kMirror : 0) |
+    faces.flags.push_back((scene.material(triangle).isSpecular() ? BundleFaces::kMirror : 0) |
                           (flipped ? BundleFaces::kFlipped : 0));
     ++faces.count;
 }

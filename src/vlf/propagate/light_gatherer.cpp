@@ -260,7 +260,8 @@ void LightGatherer::drawNearSamples(const LightReceiver& r, const Light& light, 
             frameFromNormal(p.shading).toWorld(sampleCosineHemisphere(r2Point(j, shift)));
         if (glm::dot(p.geometric, direction) <= 0) continue;
         const Vec3 origin = p.position + rays_.epsilon() * p.geometric;
-        const Hit hit = rays_.closest({origin, direction, 0, reach});
+        Transmittance passed;
+        const Hit hit = rays_.closestBehindPanes({origin, direction, 0, reach}, passed);
         if (!hit ||
             !std::binary_search(light.triangles.begin(), light.triangles.end(), hit.triangle))
             continue;
@@ -270,7 +271,7 @@ void LightGatherer::drawNearSamples(const LightReceiver& r, const Light& light, 
             continue;
         const Vec3 radiance = emittedRadiance(scene_, scene_.material(hit.triangle),
                                               uvAt(scene_, hit.triangle, hit.barycentric));
-        samples_.push_back({kPi / lobe(p.shading, p.geometric), radiance, Vec3(1)});
+        samples_.push_back({kPi / lobe(p.shading, p.geometric), radiance, passed.colour});
     }
 }
 
@@ -304,8 +305,15 @@ void LightGatherer::drawSamples(const LightReceiver& r, const LightImage& image,
 /// Traces the shadow rays of samples_ (none if they went by mirrors).
 void LightGatherer::findVisible() {
     if (counts_ == Counts::blockedByExtra) return keepBlockedByExtra();
-    blocked_.resize(shadowRays_.size());
-    rays_.occluded(shadowRays_, blocked_);
+    if (rays_.hasPanes()) {
+        passed_.resize(shadowRays_.size());
+        rays_.transmittance(shadowRays_, passed_);
+        for (std::size_t i = 0; i < shadowRays_.size(); ++i) samples_[i].throughput = passed_[i];
+        blocked_.assign(shadowRays_.size(), 0);
+    } else {
+        blocked_.resize(shadowRays_.size());
+        rays_.occluded(shadowRays_, blocked_);
+    }
     if (extra_) extra_(shadowRays_, blocked_);
     for (std::size_t i = 0; i < blocked_.size(); ++i)
         if (blocked_[i]) samples_[i].throughput = Vec3(0);
@@ -316,7 +324,8 @@ void LightGatherer::keepBlockedByExtra() {
     blockedByExtra_.assign(shadowRays_.size(), 0);
     extra_(shadowRays_, blockedByExtra_);
     for (std::size_t i = 0; i < shadowRays_.size(); ++i)
-        if (!blockedByExtra_[i] || rays_.occluded(shadowRays_[i])) samples_[i].throughput = Vec3(0);
+        samples_[i].throughput =
+            blockedByExtra_[i] ? rays_.transmittance(shadowRays_[i]).colour : Vec3(0);
 }
 
 bool LightGatherer::extraBlocks(const Ray& ray) {

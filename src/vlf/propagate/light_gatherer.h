@@ -63,7 +63,7 @@ class LightGatherer {
     };
     struct Sample {
         float geometry;
-        Vec3 radiance, throughput;  // throughput: of the mirrors on the way; 0 if occluded
+        Vec3 radiance, throughput;  // throughput: of mirrors or panes on the way; 0 if occluded
     };
     enum class Counts { seen, blockedByExtra };
 
@@ -102,6 +102,7 @@ class LightGatherer {
     std::vector<float> effects_;
     std::vector<Ray> shadowRays_;
     std::vector<std::uint8_t> blocked_, blockedByExtra_;
+    std::vector<Vec3> passed_;
     std::vector<Sample> samples_;
 };
 

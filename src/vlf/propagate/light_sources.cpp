@@ -184,7 +184,7 @@ std::vector<std::uint32_t> chartsOfMirrorTexels(const Scene& scene, const Unwrap
     std::vector<std::uint32_t> chartOf(unwrap.atlasSize(), kNoChart);
     for (std::uint32_t c = 0; c < unwrap.charts.size(); ++c) {
         const Chart& chart = unwrap.charts[c];
-        if (!scene.materials[chart.material].isMirror()) continue;
+        if (!scene.materials[chart.material].isSpecular()) continue;
         for (std::uint32_t y = chart.y; y < chart.y + chart.height; ++y)
             std::fill_n(chartOf.begin() + y * unwrap.atlasWidth + chart.x, chart.width, c);
     }
@@ -203,9 +203,12 @@ LightSources findLightSources(const Scene& scene, const Unwrap& unwrap) {
     sources.lights = findLights(scene, unwrap);
     sources.planarMirror.assign(unwrap.charts.size(), 0);
     sources.mirrorOffset.assign(unwrap.charts.size(), 0);
+    sources.withinGlass.assign(unwrap.charts.size(), 0);
     sources.mirrorChart = chartsOfMirrorTexels(scene, unwrap);
     std::map<std::uint32_t, Vec3> mirrors;  // planar mirror chart -> a point of it
     for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) {
+        const std::uint32_t back = unwrap.triangleCharts[t].back;
+        if (scene.material(t).isSolidGlass() && back != kNoChart) sources.withinGlass[back] = 1;
         if (!scene.material(t).isMirror() || scene.material(t).isGlossy()) continue;
         for (const std::uint32_t c :
              {unwrap.triangleCharts[t].front, unwrap.triangleCharts[t].back})

@@ -63,14 +63,16 @@ struct LightSources {
     std::vector<Light> lights;
     std::vector<LightImage> images;
     std::vector<std::uint8_t> planarMirror;  ///< per chart: flat, a perfect mirror
+    std::vector<std::uint8_t> withinGlass;   ///< per chart: the inside of a solid of glass
     std::vector<float> mirrorOffset;         ///< per chart: of a planar mirror's plane
-    std::vector<std::uint32_t> mirrorChart;  ///< chart of each atlas texel of a mirror
+    std::vector<std::uint32_t> mirrorChart;  ///< chart of each atlas texel of a mirror or glass
     int imageDepth = 0;     ///< chains of up to this many planar mirrors are in `images`
     bool allApart = false;  ///< rays over mirrors are not to look for emission at all
 
-    /// Whether emission seen over these mirrors (charts, in order) is already in the direct light.
-    bool covers(int depth, bool allPlanar) const {
-        return allApart || (allPlanar && depth <= imageDepth);
+    /// Whether emission seen over these mirrors (charts, in order) is already in the direct light,
+    /// which passes panes on its way from a light, but not from an image of one.
+    bool covers(int depth, bool allPlanar, bool behindPanes = false) const {
+        return allApart || (allPlanar && depth <= (behindPanes ? 0 : imageDepth));
     }
 };
 

@@ -44,7 +44,8 @@ double textureBytes(const Scene& scene) {
 double elements(const Scene& scene, MirrorKind kind, int lines, int cells) {
     double mirrors = 0;
     for (std::uint32_t t = 0; t < scene.triangles.size(); ++t)
-        if (scene.material(t).isMirror(kind)) mirrors += area(scene, t);
+        if (scene.material(t).isSpecular(kind))
+            mirrors += (scene.material(t).isPane() ? 2 : 1) * area(scene, t);
     const double cell = 2.0 * boundingSphere(scene).radius / (cells - 1);
     return kRadianceOverhead * 0.5 * lines * mirrors / (cell * cell);
 }

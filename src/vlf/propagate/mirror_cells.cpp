@@ -105,11 +105,12 @@ std::vector<MirrorChart> mirrorCharts(const Scene& scene, const LightField& fiel
     std::vector<std::uint32_t> place(field.charts.size(), kNoChart);
     std::vector<MirrorChart> mirrors;
     for (std::uint32_t c = 0; c < field.charts.size(); ++c)
-        if (scene.materials[field.charts[c].material].isMirror(kind)) {
+        if (scene.materials[field.charts[c].material].isSpecular(kind)) {
             place[c] = static_cast<std::uint32_t>(mirrors.size());
             mirrors.push_back({c, field.charts[c].planar, {}});
         }
     const auto add = [&](std::uint32_t chart, std::uint32_t triangle, bool front) {
+        if (!front && scene.material(triangle).isSolidGlass()) return;
         if (chart != kNoChart && place[chart] != kNoChart)
             mirrors[place[chart]].sides.push_back(
                 {triangle, front, geometricNormal(scene, triangle) * (front ? 1.0f : -1.0f)});

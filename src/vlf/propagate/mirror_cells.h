@@ -22,7 +22,8 @@ struct MirrorChart {
     std::vector<Side> sides;
 };
 
-/// All charts whose material is a mirror of this kind, ascending.
+/// All charts whose material is a mirror of this kind or, of the perfect ones, glass; ascending.
+/// Those within solid glass have no sides.
 std::vector<MirrorChart> mirrorCharts(const Scene& scene, const LightField& field, MirrorKind kind);
 
 /// A cell's place on a chart.

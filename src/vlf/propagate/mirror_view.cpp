@@ -93,6 +93,49 @@ void MirrorViewTracer::start(bool planar) {
     }
 }
 
+/// Of panes the reflected ray, of solids both; what is seen through those decides the distance.
+void MirrorViewTracer::startGlass(bool planar) {
+    views_.assign(cells_.size(), {});
+    paths_.clear();
+    rayQueue_.clear();
+    for (std::uint32_t i = 0; i < cells_.size(); ++i) {
+        const MirrorCell& c = cells_[i];
+        const Material& glass = scene_.material(c.triangle);
+        const Vec3 side = sideNormal(scene_, c.triangle, c.front);
+        const Vec3 normal = mirrorNormal(scene_, c.triangle, c.barycentric, side, planar);
+        const GlassSplit split = splitAtGlass(glass.medium(), -toEye_, normal, side, c.front);
+        const Vec3 position = c.guard && !glass.thin ? pointWithin(c) : c.position;
+        rayQueue_.push_back({position + rays_.epsilon() * side, split.reflected});
+        paths_.push_back({i, Vec3(split.reflectance), 0, glass.thin, true, false, 0});
+        if (glass.thin || split.transmittance <= 0) continue;
+        rayQueue_.push_back({position - rays_.epsilon() * side, split.transmitted});
+        paths_.push_back({i, split.transmittance * split.radianceScale * glass.transmission, 0,
+                          true, false, false, 0});
+    }
+}
+
+void MirrorViewTracer::passGlass(const Path& path, const Vec3& direction, const Arrival& at) {
+    const Vec3 side = sideNormal(scene_, at.hit.triangle, at.front);
+    const Vec3 normal =
+        mirrorNormal(scene_, at.hit.triangle, at.hit.barycentric, side, at.chart.planar);
+    const GlassSplit split =
+        splitAtGlass(at.material.medium(), glm::normalize(direction), normal, side, at.front);
+    const bool transmits = split.transmittance > split.reflectance;
+    followGlass(split, at.material.transmission, path.throughput,
+                [&](const Vec3& towards, float offset, const Vec3& weight) {
+                    Path next = path;
+                    next.throughput *= weight;
+                    next.unfolding = path.unfolding && (offset < 0) == transmits;
+                    next.first = false;
+                    const bool straight = at.material.thin && offset < 0;
+                    next.raysPerPoint = straight ? path.raysPerPoint : 0;
+                    next.straight = straight ? path.straight + at.hit.t : 0;
+                    if (maxComponent(next.throughput) < kMinThroughput) return;
+                    nextRays_.push_back({at.position + offset * rays_.epsilon() * side, towards});
+                    nextPaths_.push_back(next);
+                });
+}
+
 /// A point of a rough mirror, seen from somewhere.
 struct MirrorViewTracer::RoughPoint {
     Vec3 position, side;  ///< the latter the geometric normal
@@ -190,14 +233,15 @@ float MirrorViewTracer::pointDensity(std::uint32_t triangle, float distance, flo
 float MirrorViewTracer::emitterWeight(const Path& path, const Ray& ray, const Hit& hit) const {
     if (path.raysPerPoint <= 0) return 1;
     const float cosine = glm::dot(geometricNormal(scene_, hit.triangle), ray.direction);
-    return path.raysPerPoint / (path.raysPerPoint + pointDensity(hit.triangle, hit.t, cosine));
+    const float points = pointDensity(hit.triangle, path.straight + hit.t, cosine);
+    return path.raysPerPoint / (path.raysPerPoint + points);
 }
 
 void MirrorViewTracer::addVisiblePoints() {
-    blocked_.resize(shadowRays_.size());
-    rays_.occluded(shadowRays_, blocked_);
+    passed_.resize(shadowRays_.size());
+    rays_.transmittance(shadowRays_, passed_);
     for (std::size_t i = 0; i < pointLights_.size(); ++i)
-        if (!blocked_[i]) views_[pointLights_[i].cell].radiance += pointLights_[i].radiance;
+        views_[pointLights_[i].cell].radiance += passed_[i] * pointLights_[i].radiance;
     shadowRays_.clear();
     pointLights_.clear();
 }
@@ -218,7 +262,7 @@ void MirrorViewTracer::reflect(Path path, const Vec3& direction, const Arrival& 
                      !at.material.isGlossy() &&
                      maxComponent(at.material.mirror) > maxComponent(at.material.diffuse);
     path.first = false;
-    path.raysPerPoint = 0;
+    path.raysPerPoint = path.straight = 0;
     const Vec3 side = sideNormal(scene_, at.hit.triangle, at.front);
     const Vec3 normal =
         mirrorNormal(scene_, at.hit.triangle, at.hit.barycentric, side, at.chart.planar);
@@ -291,7 +335,10 @@ void MirrorViewTracer::arrive(const Path& path, const Ray& ray, const Hit& hit,
     if (at.material.isEmitter() && (at.front || at.material.emitsBothSides))
         radiance += emitterWeight(path, ray, hit) * emittedRadiance(scene_, at.material, at.uv);
     views_[path.cell].radiance += path.throughput * radiance;
-    if (at.material.isMirror()) reflect(next, ray.direction, at, random);
+    if (at.material.isGlass())
+        passGlass(next, ray.direction, at);
+    else if (at.material.isMirror())
+        reflect(next, ray.direction, at, random);
 }
 
 /// What the cells of a rough mirror show, from what those traced do.
@@ -339,6 +386,8 @@ const std::vector<MirrorView>& MirrorViewTracer::trace(std::span<const MirrorCel
     const Material& material = scene_.material(cells.front().triangle);
     if (material.isGlossy())
         startRough(material.roughness, random);
+    else if (material.isGlass())
+        startGlass(planar);
     else
         start(planar);
     for (int step = 0; step <= kMaxReflections && !rayQueue_.empty(); ++step) advance(random);
@@ -347,7 +396,10 @@ const std::vector<MirrorView>& MirrorViewTracer::trace(std::span<const MirrorCel
         share();
         smoothViews(views_, cells_, viewPoints_, material.roughness, cellSize_);
     }
-    if (!planar) formImages();
+    if (!planar && material.isSolidGlass())
+        for (MirrorView& v : views_) v.distance = std::min(v.distance, cellSize_);
+    else if (!planar)
+        formImages();
     for (MirrorView& v : views_) v.distance = std::min(v.distance, longest_);
     return views_;
 }

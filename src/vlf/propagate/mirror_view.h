@@ -1,5 +1,6 @@
 #pragma once
-// What the cells of a mirror chart show: reflected rays followed to diffuse surfaces. Of a rough
+// What the cells of a chart of a mirror or glass show: reflected rays, and those that solid glass
+// transmits, followed to diffuse surfaces. Of a rough
 // mirror they are many a cell, and emitters are sought by points on them, too (E. Veach and
 // L. Guibas, "Optimally combining sampling techniques for Monte Carlo rendering", 1995).
 
@@ -18,10 +19,11 @@
 namespace vlf {
 
 struct MirrorView {
-    Vec3 radiance{0};    ///< leaving the mirror, W·m⁻²·sr⁻¹
+    Vec3 radiance{0};    ///< leaving the mirror, W·m⁻²·sr⁻¹; of a pane, what it reflects alone
     float distance = 0;  ///< from the mirror to the image of what is seen, metres (of a rough one
-                         ///< the harmonic mean); 0: nothing, the cell lies within a solid or
-                         ///< outside the room
+                         ///< the harmonic mean, of solid glass that of what is seen through it or,
+                         ///< where it is curved, next to none); 0: nothing, the cell lies within a
+                         ///< solid or outside the room
 };
 
 /// How many samples of what a rough mirror reflects make the light of a cell.
@@ -69,6 +71,7 @@ class MirrorViewTracer {
         bool scattered;      ///< by a rough mirror
         float raysPerPoint;  ///< density of a rough mirror's rays by that of the points on emitters
                              ///< that are sought from it, sr⁻¹; 0: there are none
+        float straight = 0;  ///< metres since then, by way of panes
     };
     struct Arrival;
     struct RoughPoint;
@@ -83,6 +86,8 @@ class MirrorViewTracer {
     };
 
     void start(bool planar);
+    void startGlass(bool planar);
+    void passGlass(const Path& path, const Vec3& direction, const Arrival& at);
     void startRough(float roughness, RandomStream& random);
     void scatter(Path path, const RoughPoint& at, const GlossSamples& samples,
                  RandomStream& random);
@@ -120,7 +125,7 @@ class MirrorViewTracer {
     std::vector<Hit> hits_;
     std::vector<PointLight> pointLights_;  ///< of points on emitters, by shadowRays_
     std::vector<Ray> shadowRays_;
-    std::vector<std::uint8_t> blocked_;
+    std::vector<Vec3> passed_;
 };
 
 }  // namespace vlf

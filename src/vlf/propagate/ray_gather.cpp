@@ -28,6 +28,12 @@ bool RayGatherer::isPlainMirror(std::uint32_t chart) const {
            scene_.materials[unwrap_.charts[chart].material].mirrorTexture < 0;
 }
 
+/// Whether what the inside of a solid of glass itself receives is asked for: nobody needs that.
+bool RayGatherer::isWithinGlass(const MirrorSight& sight) const {
+    const std::uint32_t chart = sources_.mirrorChart[sight.receiver];
+    return chart != kNoChart && sources_.withinGlass[chart] != 0;
+}
+
 void RayGatherer::startAtMirrors(const ParallelSubfield& subfield,
                                  const std::vector<MirrorSight>& sights, RandomStream& random) {
     paths_.clear();
@@ -37,18 +43,20 @@ void RayGatherer::startAtMirrors(const ParallelSubfield& subfield,
                         (perCell * (subfield.yOffset - 0.5f)) * subfield.yAxis -
                         subfield.depthOffset * subfield.direction;
     for (const MirrorSight& s : sights) {
+        if (isWithinGlass(s)) continue;
         const Vec3 direction = s.forward ? subfield.direction : -subfield.direction;
         const Vec3 cell =
             origin + (perCell * s.x) * subfield.xAxis + (perCell * s.y) * subfield.yAxis;
         const std::uint32_t chart = sources_.mirrorChart[s.mirror];
-        const Vec3& mirror = scene_.materials[unwrap_.charts[chart].material].mirror;
-        const float chance = chanceToFollow(mirror);
+        const Material& material = scene_.materials[unwrap_.charts[chart].material];
+        const Vec3& mirror = material.mirror;
+        const float chance = material.isGlass() ? 1 : chanceToFollow(mirror);
         if (chance < 1 && random.next() >= chance) continue;
         if (isPlainMirror(chart)) {
             const Vec3& n = unwrap_.charts[chart].normal;
             queue_.push_back({cell + s.mirrorDepth * subfield.direction + rays_.epsilon() * n,
                               glm::reflect(direction, n)});
-            paths_.push_back({s.receiver, 1, true, false, mirror / chance});
+            paths_.push_back({s.receiver, 1, true, false, mirror / chance, 1});
         } else {
             // From the receiver on, to find where exactly the mirror is met.
             queue_.push_back(
@@ -85,7 +93,7 @@ void RayGatherer::advance(RandomStream& random, const TexelBuffer& radiance,
     for (std::size_t i = 0; i < hits_.size(); ++i) {
         const Hit& hit = hits_[i];
         const Path& path = paths_[i];
-        const bool countsItself = path.fromTexel && path.reflections == 0;
+        const bool countsItself = path.fromTexel && path.steps == 0;
         if (!hit) {
             if (countsItself) gathered.add(path.receiver, Vec3(0), 1);
             continue;
@@ -96,12 +104,16 @@ void RayGatherer::advance(RandomStream& random, const TexelBuffer& radiance,
         if (chart == kNoChart) continue;
         const Vec3 position = queue_[i].origin + hit.t * queue_[i].direction;
         if (countsItself && radiance.weight(texelAt(unwrap_, chart, position)) <= 0) continue;
-        if (countsItself || path.reflections > 0)
+        if (countsItself || path.steps > 0)
             gathered.add(
                 path.receiver,
                 path.throughput * radianceSeen(path, hit, chart, front, position, radiance),
                 countsItself ? 1 : 0);
-        if (path.reflections < kMaxReflections && scene_.material(hit.triangle).isMirror())
+        if (path.steps == kMaxReflections) continue;
+        const Material& material = scene_.material(hit.triangle);
+        if (material.isGlass())
+            passGlass(path, queue_[i].direction, hit, front, position, random);
+        else if (material.isMirror())
             reflect(path, queue_[i].direction, hit, chart, front, position, random);
     }
     std::swap(paths_, nextPaths_);
@@ -113,7 +125,7 @@ Vec3 RayGatherer::radianceSeen(const Path& path, const Hit& hit, std::uint32_t c
     const Vec3 reflected = radiance.rgb(texelAt(unwrap_, chart, position));
     const Material& material = scene_.material(hit.triangle);
     if (!material.isEmitter() || !(front || material.emitsBothSides) ||
-        sources_.covers(path.reflections, path.planarOnly))
+        sources_.covers(path.reflections, path.planarOnly, path.behindPanes))
         return reflected;
     return reflected +
            emittedRadiance(scene_, material, uvAt(scene_, hit.triangle, hit.barycentric));
@@ -126,12 +138,13 @@ void RayGatherer::reflect(Path path, const Vec3& direction, const Hit& hit, std:
     const Vec3 mirror =
         mirrorReflectance(scene_, material, uvAt(scene_, hit.triangle, hit.barycentric));
     path.throughput *= mirror;
-    const bool chosen = path.reflections == 0 && !path.fromTexel;  // as a sight
+    const bool chosen = path.steps == 0 && !path.fromTexel;  // as a sight
     const float chance = chosen ? 1 : chanceToFollow(mirror);
     if (chance < 1 && random.next() >= chance) return;
     path.throughput /= chance;
     path.planarOnly = path.planarOnly && planar;
     ++path.reflections;
+    ++path.steps;
     const Vec3 side = geometricNormal(scene_, hit.triangle) * (front ? 1.0f : -1.0f);
     Vec3 normal = planar ? side : shadingNormalAt(scene_, hit.triangle, hit.barycentric);
     if (glm::dot(normal, side) < 0) normal = -normal;
@@ -145,6 +158,29 @@ void RayGatherer::reflect(Path path, const Vec3& direction, const Hit& hit, std:
     }
     if (glm::dot(reflected, side) <= 0 || maxComponent(path.throughput) < kMinThroughput) return;
     nextQueue_.push_back({position + rays_.epsilon() * side, reflected});
+    nextPaths_.push_back(path);
+}
+
+/// Panes that are passed straight leave a path what it is.
+void RayGatherer::passGlass(Path path, const Vec3& direction, const Hit& hit, bool front,
+                            const Vec3& position, RandomStream& random) {
+    const Material& glass = scene_.material(hit.triangle);
+    const Vec3 side = geometricNormal(scene_, hit.triangle) * (front ? 1.0f : -1.0f);
+    Vec3 normal = shadingNormalAt(scene_, hit.triangle, hit.barycentric);
+    if (glm::dot(normal, side) < 0) normal = -normal;
+    const GlassSplit split =
+        splitAtGlass(glass.medium(), glm::normalize(direction), normal, side, front);
+    const bool reflects = random.next() < split.reflectance;
+    if (!reflects) path.throughput *= split.radianceScale * glass.transmission;
+    if (maxComponent(path.throughput) < kMinThroughput) return;
+    ++path.steps;
+    if (!reflects && glass.thin)
+        path.behindPanes = true;
+    else
+        path.planarOnly = false;
+    const float offset = reflects ? rays_.epsilon() : -rays_.epsilon();
+    nextQueue_.push_back(
+        {position + offset * side, reflects ? split.reflected : split.transmitted});
     nextPaths_.push_back(path);
 }
 

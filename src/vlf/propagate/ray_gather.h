@@ -1,6 +1,7 @@
 #pragma once
-// Light gathered by single rays: by those of a bundle that end on a mirror and go on by reflection
-// to a diffuse surface, and by texels of their own that the bundles hit too rarely.
+// Light gathered by single rays: by those of a bundle that end on a mirror or glass and go on by
+// reflection or transmission to a diffuse surface, and by texels of their own that the bundles hit
+// too rarely.
 
 #include "vlf/math/random.h"
 #include "vlf/propagate/bundle_sweep.h"
@@ -13,7 +14,7 @@
 
 namespace vlf {
 
-/// Longest chain of mirrors followed; what is left of the light then is dropped.
+/// Longest chain of mirrors and glass followed; what is left of the light then is dropped.
 inline constexpr int kMaxReflections = 16;
 
 /// Chance with which light of many paths is followed by way of a mirror of this reflectance: of weak
@@ -23,8 +24,8 @@ inline float chanceToFollow(const Vec3& reflectance) {
     return std::min(1.0f, 2 * maxComponent(reflectance));
 }
 
-/// Follows rays over mirrors and adds the radiance found to their receivers. Of the directions in
-/// which a rough mirror reflects, one is drawn.
+/// Follows rays over mirrors and glass and adds the radiance found to their receivers. Of the
+/// directions in which a rough mirror reflects, one is drawn; so is reflection or transmission.
 class RayGatherer {
   public:
     RayGatherer(const Scene& scene, const RayScene& rays, const Unwrap& unwrap,
@@ -46,9 +47,11 @@ class RayGatherer {
     struct Path {
         std::uint32_t receiver;
         int reflections;
-        bool planarOnly;  // all of these so far, and perfect
+        bool planarOnly;  // all of these so far, and perfect; no glass but panes passed straight
         bool fromTexel;   // not yet among the receiver's samples when it starts
         Vec3 throughput;
+        int steps = 0;  // reflections and transmissions
+        bool behindPanes = false;
     };
 
     void startAtMirrors(const ParallelSubfield& subfield, const std::vector<MirrorSight>& sights,
@@ -58,8 +61,11 @@ class RayGatherer {
                       const Vec3& position, const TexelBuffer& radiance) const;
     void reflect(Path path, const Vec3& direction, const Hit& hit, std::uint32_t chart, bool front,
                  const Vec3& position, RandomStream& random);
+    void passGlass(Path path, const Vec3& direction, const Hit& hit, bool front,
+                   const Vec3& position, RandomStream& random);
     Ray texelRay(std::size_t texel, const Vec2& sample, RandomStream& random) const;
     bool isPlainMirror(std::uint32_t chart) const;
+    bool isWithinGlass(const MirrorSight& sight) const;
 
     const Scene& scene_;
     const RayScene& rays_;

@@ -91,11 +91,12 @@ void printColour(Text& out, const char* statement, const Vec3& c) {
 
 Text materialText(const Scene& scene, const std::vector<std::string>& names,
                   const std::vector<std::string>& files) {
-    constexpr int kIllumDiffuse = 1, kIllumGlossy = 2, kIllumMirror = 3;
+    constexpr int kIllumDiffuse = 1, kIllumGlossy = 2, kIllumMirror = 3, kIllumGlass = 7;
     Text out;
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
         const Material& m = scene.materials[i];
-        const int model = m.isGlossy()   ? kIllumGlossy
+        const int model = m.isGlass()    ? kIllumGlass
+                          : m.isGlossy() ? kIllumGlossy
                           : m.isMirror() ? kIllumMirror
                                          : kIllumDiffuse;
         print(out, "newmtl {}\nillum {}\n", names[i], model);
@@ -105,6 +106,11 @@ Text materialText(const Scene& scene, const std::vector<std::string>& names,
         if (m.isMirror()) {
             printColour(out, "Ks", m.mirror);
             printMap(out, "map_Ks", scene, m.mirrorTexture, files);
+        }
+        if (m.isGlass()) {
+            // A body's filter is that of both its surfaces.
+            printColour(out, "Tf", m.thin ? m.transmission : m.transmission * m.transmission);
+            print(out, "Ni {}\n", m.ior);
         }
         if (m.isEmitter()) {
             printColour(out, "Ke", m.emission);

@@ -22,6 +22,13 @@ void extend(std::vector<T>& to, const std::vector<T>& from) {
     to.insert(to.end(), from.begin(), from.end());
 }
 
+/// Whether `is` holds for the material of any triangle.
+template <class Is>
+bool hasMaterial(const Scene& scene, Is is) {
+    return std::any_of(scene.triangles.begin(), scene.triangles.end(),
+                       [&](const Triangle& t) { return is(scene.materials[t.material]); });
+}
+
 }  // namespace
 
 Vec3 areaVector(const Scene& scene, std::uint32_t triangle) {
@@ -64,14 +71,23 @@ Vec3 emittedRadiance(const Scene& scene, const Material& material, const Vec2& u
 }
 
 bool hasEmitter(const Scene& scene) {
-    return std::any_of(scene.triangles.begin(), scene.triangles.end(),
-                       [&](const Triangle& t) { return scene.materials[t.material].isEmitter(); });
+    return hasMaterial(scene, [](const Material& m) { return m.isEmitter(); });
 }
 
 bool hasMirror(const Scene& scene, MirrorKind kind) {
-    return std::any_of(
-        scene.triangles.begin(), scene.triangles.end(),
-        [&](const Triangle& t) { return scene.materials[t.material].isMirror(kind); });
+    return hasMaterial(scene, [&](const Material& m) { return m.isMirror(kind); });
+}
+
+bool hasSpecular(const Scene& scene, MirrorKind kind) {
+    return hasMaterial(scene, [&](const Material& m) { return m.isSpecular(kind); });
+}
+
+bool hasGlass(const Scene& scene) {
+    return hasMaterial(scene, [](const Material& m) { return m.isGlass(); });
+}
+
+bool hasPane(const Scene& scene) {
+    return hasMaterial(scene, [](const Material& m) { return m.isPane(); });
 }
 
 bool hasMirror(const Scene& scene) {
@@ -86,14 +102,29 @@ bool makeGlossDiffuse(Scene& scene) {
     for (Material& m : scene.materials) {
         if (!m.isGlossy()) continue;
         any = true;
-        const Vec3 added = m.mirror * mean(m.mirrorTexture) /
-                           glm::max(mean(m.diffuseTexture), Vec3(1e-3f));
+        const Vec3 added =
+            m.mirror * mean(m.mirrorTexture) / glm::max(mean(m.diffuseTexture), Vec3(1e-3f));
         m.diffuse = glm::max(m.diffuse, glm::min(Vec3(1), m.diffuse + added));
         m.mirror = Vec3(0);
         m.mirrorTexture = -1;
         m.roughness = 0;
     }
     return any;
+}
+
+bool dropGlass(Scene& scene) {
+    if (!hasGlass(scene)) return false;
+    std::vector<std::uint32_t> keptBefore{0};
+    for (const Triangle& t : scene.triangles)
+        keptBefore.push_back(keptBefore.back() + (scene.materials[t.material].isGlass() ? 0 : 1));
+    for (Mesh& mesh : scene.meshes) {
+        const std::uint32_t end = keptBefore[mesh.firstTriangle + mesh.triangleCount];
+        mesh.firstTriangle = keptBefore[mesh.firstTriangle];
+        mesh.triangleCount = end - mesh.firstTriangle;
+    }
+    std::erase_if(scene.triangles,
+                  [&](const Triangle& t) { return scene.materials[t.material].isGlass(); });
+    return true;
 }
 
 Bounds boundsOf(const Scene& scene) {

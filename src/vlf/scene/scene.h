@@ -3,6 +3,7 @@
 // its materials, textures and cameras. Plain data.
 
 #include "vlf/math/bounds.h"
+#include "vlf/math/glass.h"
 #include "vlf/math/vector.h"
 #include "vlf/scene/texture.h"
 
@@ -15,10 +16,14 @@ namespace vlf {
 
 enum class MirrorKind { perfect, rough };
 
-/// A surface that reflects diffusely and as a mirror, perfect or rough, and may emit. Reflectances
-/// lie in [0, 1] and diffuse + mirror <= 1 per channel (the importers scale what exceeds it).
-/// Surfaces reflect on both sides; emission leaves the side of the winding normal only, unless
-/// emitsBothSides.
+/// Largest index of refraction of glass.
+inline constexpr float kMostIor = 4;
+
+/// A surface that reflects diffusely and as a mirror, perfect or rough, and may emit; or smooth
+/// glass (math/glass.h), which reflects and transmits by its index of refraction alone.
+/// Reflectances lie in [0, 1] and diffuse + mirror <= 1 per channel (the importers scale what
+/// exceeds it); those of glass, and what it emits, are 0. Surfaces reflect on both sides; emission
+/// leaves the side of the winding normal only, unless emitsBothSides.
 struct Material {
     std::string name;
     Vec3 diffuse{0.8f};       ///< Lambertian reflectance, multiplied by diffuseTexture
@@ -29,6 +34,16 @@ struct Material {
     int mirrorTexture = -1;
     int emissionTexture = -1;
     bool emitsBothSides = false;
+    /// Not black: glass. The share of the light that is not reflected which passes a pane, or one
+    /// surface of a solid, [0, 1].
+    Vec3 transmission{0};
+    float ior = 1.5f;  ///< index of refraction of glass by that of what is before it, [1, 4]
+    bool thin = true;  ///< glass is a pane that rays pass straight; else a solid behind its front
+
+    bool isGlass() const { return maxComponent(transmission) > 0; }
+    bool isPane() const { return isGlass() && thin; }
+    bool isSolidGlass() const { return isGlass() && !thin; }
+    GlassMedium medium() const { return {ior, thin}; }
 
     bool isEmitter() const { return maxComponent(emission) > 0; }
     bool isMirror() const { return maxComponent(mirror) > 0; }
@@ -37,6 +52,12 @@ struct Material {
     }
     bool isGlossy() const { return isMirror(MirrorKind::rough); }
     bool isPureMirror() const { return isMirror() && maxComponent(diffuse) <= 0; }
+
+    /// Whether what is seen in it depends on the direction, without a lobe (perfect) or with one.
+    bool isSpecular(MirrorKind kind) const {
+        return isMirror(kind) || (kind == MirrorKind::perfect && isGlass());
+    }
+    bool isSpecular() const { return isMirror() || isGlass(); }
 };
 
 /// One triangle: counter-clockwise vertices seen from its front, and its material.
@@ -63,8 +84,8 @@ struct Camera {
     std::string name;
     Vec3 eye{0, 0, 0}, look{0, 0, -1}, up{0, 1, 0};
     float verticalFov = 50;
-    /// Where the picture's centre lies on the plane one metre before the eye: metres to the right of
-    /// and above the line of sight. Of one eye of a pair; scene files do not hold it.
+    /// Where the picture's centre lies on the plane one metre before the eye: metres to the right
+    /// of and above the line of sight. Of one eye of a pair; scene files do not hold it.
     Vec2 shift{0};
 };
 
@@ -112,6 +133,11 @@ bool hasEmitter(const Scene& scene);
 bool hasMirror(const Scene& scene);
 bool hasMirror(const Scene& scene, MirrorKind kind);
 
+/// Whether any triangle's material is specular of this kind, or is glass, or a pane.
+bool hasSpecular(const Scene& scene, MirrorKind kind);
+bool hasGlass(const Scene& scene);
+bool hasPane(const Scene& scene);
+
 Bounds boundsOf(const Scene& scene);
 
 /// Smallest sphere around the bounds' centre that holds every vertex.
@@ -124,6 +150,9 @@ Sphere boundingSphere(const Scene& scene);
 /// Makes rough mirrors reflect diffusely what they reflect, as far as diffuse textures allow.
 /// Returns whether there were any.
 bool makeGlossDiffuse(Scene& scene);
+
+/// Leaves out triangles of glass. Returns whether there were any.
+bool dropGlass(Scene& scene);
 
 /// Appends `other` to `scene`: materials, textures and indices are renumbered.
 void append(Scene& scene, const Scene& other);

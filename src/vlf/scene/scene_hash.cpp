@@ -44,10 +44,12 @@ std::string sceneHash(const Scene& scene) {
     hash.add(scene.uvs);
     hash.add(scene.triangles);
     for (const Material& m : scene.materials) {
-        for (const Vec3& v : {m.diffuse, m.mirror, m.emission}) hash.add(v);
+        for (const Vec3& v : {m.diffuse, m.mirror, m.emission, m.transmission}) hash.add(v);
         hash.add(m.roughness);
         for (const int t : {m.diffuseTexture, m.mirrorTexture, m.emissionTexture}) hash.add(t);
         hash.add(m.emitsBothSides);
+        hash.add(m.ior);
+        hash.add(m.thin);
     }
     for (const Texture& t : scene.textures) {
         hash.add(t.width);

@@ -9,6 +9,7 @@
 #include <memory>
 #include <span>
 #include <type_traits>
+#include <vector>
 
 namespace vlf {
 
@@ -28,9 +29,19 @@ using EmbreeScene =
 /// need one in common. Throws Error if it cannot start.
 RTCDevice embreeDevice(RayIsa isa);
 
+/// The scene in two parts.
+struct RayScene::Panes {
+    Scene scene;  ///< triangles of the panes alone
+    RayScene panes, others;
+    std::vector<std::uint32_t> triangleOf;  ///< of the whole scene, by triangle of `others`
+
+    Transmittance passed(const Ray& ray) const;
+};
+
 struct RayScene::Impl {
     EmbreeScene scene;
     float epsilon = 0;
+    std::unique_ptr<Panes> panes;  ///< null: there are none
 };
 
 namespace embree {

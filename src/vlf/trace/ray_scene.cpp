@@ -65,6 +65,7 @@ RayScene::RayScene(const Scene& scene, RayIsa isa) : impl_(std::make_unique<Impl
     if (rtcGetDeviceError(device) != RTC_ERROR_NONE)
         throw Error("the ray tracing kernels could not build the scene: out of memory?");
     impl_->epsilon = rayEpsilon(scene);
+    if (hasPane(scene)) impl_->panes = std::make_unique<Panes>(splitPanes(scene, isa));
 }
 
 RayScene::~RayScene() = default;

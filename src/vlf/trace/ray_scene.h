@@ -37,6 +37,12 @@ enum class RayIsa { automatic, sse42, avx2, avx512 };
 /// with the scene and with its distance from the world's origin.
 float rayEpsilon(const Scene& scene);
 
+/// What is left of light along a ray that passes panes straight.
+struct Transmittance {
+    Vec3 colour{1};    ///< 0 if anything else is in the way
+    float chance = 1;  ///< that a ray which goes on by chance passes all of them
+};
+
 /// Acceleration structure over all triangles of a scene. Immutable and safe to use from several
 /// threads. Keeps its own copy of the geometry.
 class RayScene {
@@ -57,11 +63,25 @@ class RayScene {
     /// Many shadow rays at once: blocked[i] is 1 if ray i is occluded, else 0.
     void occluded(std::span<const Ray> rays, std::span<std::uint8_t> blocked) const;
 
+    /// Whether any triangle is a pane of glass.
+    bool hasPanes() const;
+
+    /// What passes in (tMin, tMax) through the panes of the scene, and past the rest of it.
+    Transmittance transmittance(const Ray& ray) const;
+
+    /// Colours of many rays.
+    void transmittance(std::span<const Ray> rays, std::span<Vec3> colours) const;
+
+    /// The closest intersection with anything but panes, and what passes those before it.
+    Hit closestBehindPanes(const Ray& ray, Transmittance& transmittance) const;
+
     /// rayEpsilon of the scene.
     float epsilon() const;
 
   private:
     friend class RayInstances;
+    struct Panes;
+    static Panes splitPanes(const Scene& scene, RayIsa isa);
     struct Impl;
     std::unique_ptr<Impl> impl_;
 };

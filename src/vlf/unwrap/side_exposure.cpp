@@ -18,6 +18,9 @@ constexpr std::size_t kParticlesPerGroup = 24, kMinParticles = 8000, kMaxParticl
 constexpr std::uint32_t kMinHits = 4;
 constexpr float kMinShare = 0.01f;  // of both sides' hits: less is a crack
 
+/// Chance of going through glass, either side of which is open, rather than back.
+constexpr float kPassesGlass = 0.75f;
+
 struct Counter {
     std::atomic<std::uint32_t> front{0}, back{0};
 };
@@ -46,6 +49,12 @@ struct Sources {
     }
 };
 
+Vec3 behind(const Scene& scene, const Hit& hit, const Vec3& direction, float epsilon) {
+    const Vec3 normal = geometricNormal(scene, hit.triangle);
+    return positionAt(scene, hit.triangle, hit.barycentric) +
+           (glm::dot(normal, direction) > 0 ? epsilon : -epsilon) * normal;
+}
+
 void followParticle(const Scene& scene, const RayScene& rays, const Sources& sources,
                     const std::vector<std::uint32_t>& groupOf, std::vector<Counter>& counters,
                     RandomStream random) {
@@ -55,7 +64,9 @@ void followParticle(const Scene& scene, const RayScene& rays, const Sources& sou
     for (int bounce = 0; bounce < kBounces; ++bounce) {
         const Vec3 direction =
             frameFromNormal(normal).toWorld(sampleCosineHemisphere(random.next2()));
-        const Hit hit = rays.closest({position + rays.epsilon() * normal, direction});
+        Hit hit = rays.closest({position + rays.epsilon() * normal, direction});
+        while (hit && scene.material(hit.triangle).isGlass() && random.next() < kPassesGlass)
+            hit = rays.closest({behind(scene, hit, direction, rays.epsilon()), direction});
         if (!hit) return;
         triangle = hit.triangle;
         position = positionAt(scene, triangle, hit.barycentric);
@@ -91,8 +102,8 @@ std::vector<OpenSides> findOpenSides(const Scene& scene, const RayScene& rays,
         sides[g] = classify(counters[g].front, counters[g].back);
         // An emitting side is seen, whether or not other light reaches it.
         const Material& material = scene.material(groups[g].triangles.front());
-        sides[g].front = sides[g].front || material.isEmitter();
-        sides[g].back = sides[g].back || material.emitsBothSides;
+        sides[g].front = sides[g].front || material.isEmitter() || material.isGlass();
+        sides[g].back = sides[g].back || material.emitsBothSides || material.isGlass();
     }
     return sides;
 }

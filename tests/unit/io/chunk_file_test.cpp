@@ -86,7 +86,7 @@ TEST_F(OneChunk, HasTheDocumentedHeader) {
 
 TEST_F(OneChunk, AnotherVersionIsRefusedByName) {
     poke(bytes, 8, kFormatVersion + 1);
-    EXPECT_NE(messageOfChanged().find("format version 3"), std::string::npos);
+    EXPECT_NE(messageOfChanged().find("format version 4"), std::string::npos);
 }
 
 TEST_F(OneChunk, AnotherKindOfFileIsRefused) {

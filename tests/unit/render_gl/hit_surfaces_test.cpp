@@ -110,6 +110,7 @@ TEST(HitSurfaces, HoldEachSideOfATriangle) {
             ASSERT_EQ(side.color(0), material.diffuse);
             ASSERT_EQ(side.color(1), material.mirror);
             ASSERT_EQ(side.color(2), material.emission);
+            ASSERT_EQ(side.color(3), material.transmission);
         }
     EXPECT_GT(sides, 100);
 }

@@ -53,6 +53,11 @@ void expectSameMaterial(const Scene& a, const Material& x, const Scene& b, const
     EXPECT_EQ(x.diffuse, y.diffuse) << x.name;
     EXPECT_EQ(x.mirror, y.mirror) << x.name;
     EXPECT_EQ(x.emission, y.emission) << x.name;
+    EXPECT_EQ(x.transmission, y.transmission) << x.name;
+    if (x.isGlass()) {
+        EXPECT_EQ(x.ior, y.ior) << x.name;
+        EXPECT_EQ(x.thin, y.thin) << x.name;
+    }
     expectSameTexture(a, x.diffuseTexture, b, y.diffuseTexture);
     expectSameTexture(a, x.mirrorTexture, b, y.mirrorTexture);
     expectSameTexture(a, x.emissionTexture, b, y.emissionTexture);

@@ -43,18 +43,47 @@ TEST_F(ImportGltfMaterial, MultipliesEmissionByItsStrengthOnBothSidesIfDoubleSid
     EXPECT_TRUE(import(document).material(0).emitsBothSides);
 }
 
-TEST_F(ImportGltfMaterial, LeavesTransmissiveSurfacesOutWithAWarning) {
+TEST_F(ImportGltfMaterial, MakesTransmissiveSurfacesPanesOrSolidsAsTheyHaveAVolume) {
     Document document;
-    document.root["materials"].push_back(
-        {{"name", "glass"},
-         {"extensions", {{"KHR_materials_transmission", {{"transmissionFactor", 1}}}}}});
-    json pane = document.primitive();
-    pane["material"] = 1;
-    pane["attributes"]["POSITION"] =
-        document.addFloats({0, 0, 9, 1, 0, 9, 1, 1, 9, 0, 1, 9}, "VEC3");
-    document.root["meshes"][0]["primitives"].push_back(pane);
-    EXPECT_EQ(import(document).triangles.size(), 2u);
-    EXPECT_EQ(warningsWith("materials[1] 'glass': transparency is not supported"), 1);
+    document.material()["pbrMetallicRoughness"] = {
+        {"baseColorFactor", {0.9, 0.8, 0.7, 1}}, {"metallicFactor", 0}, {"roughnessFactor", 0}};
+    document.material()["extensions"] = {
+        {"KHR_materials_transmission", {{"transmissionFactor", 1}}},
+        {"KHR_materials_ior", {{"ior", 1.4}}}};
+    const Scene pane = import(document);
+    test::expectNear(pane.material(0).transmission, {0.9f, 0.8f, 0.7f});
+    EXPECT_FLOAT_EQ(pane.material(0).ior, 1.4f);
+    EXPECT_TRUE(pane.material(0).isPane());
+    EXPECT_TRUE(report_.warnings.empty());
+    document.material()["extensions"]["KHR_materials_volume"] = {{"thicknessFactor", 0.1},
+                                                                 {"attenuationDistance", 0.5}};
+    EXPECT_TRUE(import(document).material(0).isSolidGlass());
+    EXPECT_EQ(warningsWith("attenuation within glass is left out"), 1);
+}
+
+TEST_F(ImportGltfMaterial, TakesTheMeanOfTransmissionTextures) {
+    Document document;
+    document.addTexture({{"uri", "half.png"}});
+    Image half(2, 2, Vec3(1));
+    writePng(path("half.png"), half);
+    document.material()["extensions"] = {
+        {"KHR_materials_transmission",
+         {{"transmissionFactor", 0.8}, {"transmissionTexture", {{"index", 0}}}}}};
+    test::expectNear(import(document).material(0).transmission, Vec3(0.8f));
+    EXPECT_EQ(warningsWith("glass in part"), 1);
+    EXPECT_EQ(warningsWith("rough glass is shown as smooth"), 1);
+    document
+        .material()["extensions"]["KHR_materials_transmission"]["transmissionTexture"]["index"] = 5;
+    expectError(document, "textures[5] does not exist");
+}
+
+TEST_F(ImportGltfMaterial, KeepsOpaqueWhatLetsLittleThrough) {
+    Document document;
+    document.material()["pbrMetallicRoughness"] = {{"metallicFactor", 0}};
+    document.material()["extensions"] = {
+        {"KHR_materials_transmission", {{"transmissionFactor", 0.3}}}};
+    EXPECT_FALSE(import(document).material(0).isGlass());
+    EXPECT_EQ(warningsWith("transparency is not supported; treated as opaque"), 1);
 }
 
 TEST_F(ImportGltfMaterial, ReadsTexturesFromFilesUrisAndBuffers) {

@@ -102,13 +102,55 @@ TEST_F(ImportMtl, TakesATextureAloneAsItsReflectance) {
                      {1, 0, 1});
 }
 
-TEST_F(ImportMtl, LeavesGlassOutWithAWarning) {
-    for (const char* glass : {"illum 7\n", "illum 4\n", "d 0.1\n", "Tr 0.9\n"}) {
+TEST_F(ImportMtl, LeavesOutWhatIsTransparentWithoutBeingGlass) {
+    for (const char* clear : {"d 0.1\n", "Tr 0.9\n"}) {
         report_ = {};
-        importMaterial(std::string("Kd 0 0 0\nKs 1 1 1\n") + glass);
-        EXPECT_EQ(scene_.triangles.size(), 1u) << glass;
-        EXPECT_EQ(warningsWith("material 'paint': transparency is not supported"), 1) << glass;
+        importMaterial(std::string("Kd 0 0 0\nKs 1 1 1\n") + clear);
+        EXPECT_EQ(scene_.triangles.size(), 1u) << clear;
+        EXPECT_EQ(warningsWith("material 'paint': transparency is not supported"), 1) << clear;
     }
+}
+
+TEST_F(ImportMtl, MakesTheModelsOfGlassGlass) {
+    for (const char* model : {"4", "6", "7", "9"}) {
+        const Material m = importMaterial(
+            std::string("Kd 0.5 0.5 0.5\nKs 1 1 1\nTf 0.9 0.8 0.7\nNi 1.33\nd 0.1\nillum ") +
+            model);
+        test::expectNear(m.transmission, {0.9f, 0.8f, 0.7f});
+        EXPECT_FLOAT_EQ(m.ior, 1.33f);
+        EXPECT_TRUE(m.isPane());
+        EXPECT_EQ(maxComponent(m.diffuse + m.mirror), 0);
+    }
+    EXPECT_TRUE(report_.warnings.empty());
+    const Material plain = importMaterial("illum 7\n");
+    EXPECT_EQ(plain.transmission, Vec3(1));
+    EXPECT_FLOAT_EQ(plain.ior, 1.5f);
+}
+
+TEST_F(ImportMtl, LimitsTheIndexOfRefraction) {
+    EXPECT_FLOAT_EQ(importMaterial("illum 7\nNi 0.5\n").ior, 1);
+    EXPECT_EQ(warningsWith("index of refraction 0.5 is limited to 1 to 4"), 1);
+}
+
+TEST_F(ImportMtl, WarnsOfRoughGlass) {
+    EXPECT_TRUE(importMaterial("illum 7\nPr 0.3\n").isGlass());
+    EXPECT_EQ(warningsWith("rough glass is shown as smooth"), 1);
+}
+
+TEST_F(ImportMtl, TakesGlassThatEmitsForALamp) {
+    const Material m = importMaterial("Ke 1 1 1\nillum 7\n");
+    EXPECT_TRUE(m.isEmitter());
+    EXPECT_FALSE(m.isGlass());
+}
+
+TEST_F(ImportMtl, MakesClosedGlassSolid) {
+    write("m.mtl", "newmtl glass\nillum 7\nTf 0.25 0.25 0.25\n");
+    const Scene scene =
+        import(write("a.obj",
+                     "mtllib m.mtl\nusemtl glass\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n"
+                     "f 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n"));
+    EXPECT_TRUE(scene.material(0).isSolidGlass());
+    test::expectNear(scene.material(0).transmission, Vec3(0.5f));
 }
 
 TEST_F(ImportMtl, PrefersDToTr) {

@@ -16,9 +16,15 @@ constexpr int kMaxReflections = 16;
 constexpr float kMinThroughput = 1e-4f;
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
+/// Of unit or other `direction`.
+GlassSplit splitAt(const Surface& surface, const Material& glass, const Vec3& direction) {
+    return splitAtGlass(glass.medium(), glm::normalize(direction), surface.normal,
+                        surface.geometricNormal, surface.point.front);
+}
+
 }  // namespace
 
-/// A chain of reflections from the eye.
+/// A chain of reflections and transmissions from the eye.
 struct FieldShader::Path {
     std::size_t ray;  ///< of the camera
     Vec3 throughput;
@@ -79,10 +85,10 @@ FieldShader::FieldShader(const Scene& scene, const RayScene& rays, const LightFi
         changed_->update(objects_->irradiance(), objects_->roomIrradiance());
     }
     if (!looksUp()) return;
-    if (hasMirror(scene, MirrorKind::perfect)) {
+    if (hasSpecular(scene, MirrorKind::perfect)) {
         if (field.radiance.empty())
             throw InputError(
-                "the light field holds no radiance of mirrors to look up: bake with "
+                "the light field holds no radiance of mirrors or glass to look up: bake with "
                 "radiance directions, or trace reflections (mode raytraced)");
         lookedUp_.emplace(field.frame, field.radiance);
     }
@@ -155,6 +161,8 @@ std::optional<FieldShader::RoomPoint> FieldShader::roomPoint(const Ray& ray, con
     seen.remaining = shadows_.remaining(surface);
     seen.own *= seen.remaining;
     if (chart.planar) surface.normal = surface.geometricNormal;
+    if (const Material& m = scene_.material(hit.triangle); m.isGlass())
+        surface.mirror = Vec3(splitAt(surface, m, ray.direction).reflectance);
     if (gloss_ && !surface.isPerfectMirror()) {
         seen.own += seen.remaining * lookUpGloss(seen, ray);
         surface.mirror = Vec3(0);
@@ -162,10 +170,31 @@ std::optional<FieldShader::RoomPoint> FieldShader::roomPoint(const Ray& ray, con
     return seen;
 }
 
+/// Goes on behind glass, and with what it reflects as far as that is traced. False if that is
+/// looked up, in solid glass with all that is seen in it.
+bool FieldShader::followGlass(const Path& path, const Ray& ray, const Hit& hit,
+                              std::span<Vec3> radiance, Queue& next) const {
+    const Material& glass = scene_.material(hit.triangle);
+    if (!glass.isGlass() || (looksUp() && !glass.thin)) return false;
+    const Surface surface = surfaceAt(scene_, pointFacing(scene_, hit, ray.direction));
+    const GlassSplit split = splitAt(surface, glass, ray.direction);
+    if (looksUp()) radiance[path.ray] += path.throughput * lookUpSurface(ray, hit);
+    vlf::followGlass(split, glass.transmission, path.throughput,
+                     [&](const Vec3& direction, float side, const Vec3& weight) {
+                         const Vec3 throughput = path.throughput * weight;
+                         if (maxComponent(throughput) < kMinThroughput) return;
+                         if (looksUp() && side > 0) return;
+                         const Vec3 offset = side * rays_.epsilon() * surface.geometricNormal;
+                         next.add({path.ray, throughput}, {surface.position + offset, direction});
+                     });
+    return true;
+}
+
 void FieldShader::followRoom(const Path& path, const Ray& ray, const Hit& hit,
                              std::span<Vec3> radiance, Queue& next) const {
+    if (followGlass(path, ray, hit, radiance, next)) return;
     if (looksUp()) {
-        radiance[path.ray] = lookUpRoom(ray, hit);
+        radiance[path.ray] += path.throughput * lookUpSurface(ray, hit);
         return;
     }
     const std::optional<RoomPoint> point = roomPoint(ray, hit);
@@ -179,7 +208,7 @@ void FieldShader::followRoom(const Path& path, const Ray& ray, const Hit& hit,
 void FieldShader::followObject(const Path& path, const Ray& ray, const InstanceHit& hit,
                                std::span<Vec3> radiance, Queue& next) const {
     if (looksUp()) {
-        radiance[path.ray] = lookUpObject(ray, hit, 0);
+        radiance[path.ray] += path.throughput * lookUpObject(ray, hit, 0);
         return;
     }
     const LitObject& object = objects_->litObjects()[hit.instance];
@@ -193,7 +222,25 @@ void FieldShader::followObject(const Path& path, const Ray& ray, const InstanceH
               mirrorDirection(*surface, ray.direction)});
 }
 
+/// What a ray of a reflection probe sees, by way of panes.
 Vec3 FieldShader::lookUpRoom(const Ray& ray, const Hit& hit) const {
+    Vec3 seen(0), throughput(1);
+    Ray rest = ray;
+    Hit next = hit;
+    for (int panes = 0; next && panes <= kMaxReflections; ++panes) {
+        seen += throughput * lookUpSurface(rest, next);
+        const Material& glass = scene_.material(next.triangle);
+        if (!glass.isPane()) break;
+        const Surface surface = surfaceAt(scene_, pointFacing(scene_, next, rest.direction));
+        throughput *= splitAt(surface, glass, rest.direction).transmittance * glass.transmission;
+        rest.origin = surface.position - rays_.epsilon() * surface.geometricNormal;
+        next = rays_.closest(rest);
+    }
+    return seen;
+}
+
+/// What leaves the room's surface itself, of a pane without what is behind it.
+Vec3 FieldShader::lookUpSurface(const Ray& ray, const Hit& hit) const {
     const std::optional<RoomPoint> point = roomPoint(ray, hit);
     if (!point) return Vec3(0);
     if (!lookedUp_ || maxComponent(point->surface.mirror) < kMinThroughput) return point->own;
@@ -205,7 +252,7 @@ Vec3 FieldShader::lookUpMirror(const RoomPoint& point, const Ray& ray) const {
     const Surface& surface = point.surface;
     const SeenInMirror sight = lookedUp_->see(
         {point.chart, surface.position, surface.geometricNormal}, -ray.direction, lookup_);
-    if (!objects_) return sight.radiance;
+    if (!objects_ || scene_.material(surface.point.triangle).isSolidGlass()) return sight.radiance;
     const Ray reflected = point.reflect(ray.direction, rays_.epsilon());
     // What stands on a surface is nearer than it by less than the lookup's distances are exact.
     const float behind = sight.distance > 0 ? sight.distance + changed_->tolerance() : kInfinity;
@@ -217,8 +264,8 @@ Vec3 FieldShader::lookUpMirror(const RoomPoint& point, const Ray& ray) const {
 /// What a rough mirror of the room shows; objects but for the light that they take are not in it.
 Vec3 FieldShader::lookUpGloss(const RoomPoint& point, const Ray& ray) const {
     const Surface& surface = point.surface;
-    const SeenInMirror sight = gloss_->see(
-        {point.chart, surface.position, surface.geometricNormal}, -ray.direction, lookup_);
+    const SeenInMirror sight = gloss_->see({point.chart, surface.position, surface.geometricNormal},
+                                           -ray.direction, lookup_);
     return objects_ ? inChangedLight(sight, point.reflect(ray.direction, rays_.epsilon()))
                     : sight.radiance;
 }

@@ -35,8 +35,8 @@ class FieldShader {
     static constexpr int kProbeSize = 128;  ///< texels along a face of a mirror object's probe
 
     /// `objects`: up to date, of this room; null: none. Throws InputError if the field is not of
-    /// this scene, or if mirrors are to be looked up in a field that holds no radiance of them; what
-    /// rough mirrors show is always looked up.
+    /// this scene, or if mirrors are to be looked up in a field that holds no radiance of them;
+    /// what rough mirrors show is always looked up.
     FieldShader(const Scene& scene, const RayScene& rays, const LightField& field,
                 MirrorMethod mirrors = MirrorMethod::traced,
                 LookupKind lookup = LookupKind::depthCorrected,
@@ -58,7 +58,10 @@ class FieldShader {
     void followObject(const Path& path, const Ray& ray, const InstanceHit& hit,
                       std::span<Vec3> radiance, Queue& next) const;
 
+    bool followGlass(const Path& path, const Ray& ray, const Hit& hit, std::span<Vec3> radiance,
+                     Queue& next) const;
     Vec3 lookUpRoom(const Ray& ray, const Hit& hit) const;
+    Vec3 lookUpSurface(const Ray& ray, const Hit& hit) const;
     Vec3 lookUpMirror(const RoomPoint& point, const Ray& ray) const;
     Vec3 lookUpGloss(const RoomPoint& point, const Ray& ray) const;
     Vec3 inChangedLight(const SeenInMirror& sight, const Ray& reflected) const;

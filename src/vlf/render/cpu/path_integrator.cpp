@@ -33,7 +33,8 @@ struct PathIntegrator::Path {
     Ray ray;
     Vec3 throughput{1};
     float density = kCertain;  ///< with which a lobe drew ray.direction, per steradian
-    int depth = 1;             ///< segments, that of `ray` included
+    int depth = 1;             ///< segments, that of `ray` included; panes passed do not end one
+    float straight = 0;        ///< of the segment, metres before `ray`
     Hit hit{};                 ///< of `ray`
 };
 
@@ -72,6 +73,11 @@ Vec3 PathIntegrator::followPath(Path path, RandomStream& random) const {
     while (path.hit) {
         const SidePoint point = pointFacing(scene_, path.hit, path.ray.direction);
         radiance += path.throughput * emitterSeen(path, point);
+        if (scene_.material(point.triangle).isGlass()) {
+            if (!passGlass(point, path, random)) break;
+            path.hit = rays_.closest(path.ray);
+            continue;
+        }
         if (path.depth == options_.maxDepth) break;
         const Surface surface = surfaceAt(scene_, point);
         if (!surface.reflects()) break;
@@ -90,7 +96,8 @@ Vec3 PathIntegrator::emitterSeen(const Path& path, const SidePoint& point) const
         return emission;
     const float cosine =
         std::abs(glm::dot(geometricNormal(scene_, point.triangle), path.ray.direction));
-    const float density = emitters_.density(point.triangle) * path.hit.t * path.hit.t / cosine;
+    const float distance = path.straight + path.hit.t;
+    const float density = emitters_.density(point.triangle) * distance * distance / cosine;
     return emission * powerHeuristic(path.density, density);
 }
 
@@ -110,10 +117,13 @@ Vec3 PathIntegrator::directLight(const Surface& surface, const Scattering& scatt
         emitter.geometricNormal = -emitter.geometricNormal;
     }
     const Vec3 emission = emittedRadiance(scene_, point);
-    if (emission == Vec3(0) || !visible(surface, emitter)) return Vec3(0);
+    if (emission == Vec3(0)) return Vec3(0);
+    const Transmittance passed = visible(surface, emitter);
+    if (passed.colour == Vec3(0)) return Vec3(0);
     const float density = emitters_.density(point.triangle) * distance2 /
                           -glm::dot(emitter.geometricNormal, direction);
-    return lobes * emission * (powerHeuristic(density, scattering.density(direction)) / density);
+    const float byChance = scattering.density(direction) * passed.chance;
+    return lobes * emission * passed.colour * (powerHeuristic(density, byChance) / density);
 }
 
 /// False where the path ends in the surface.
@@ -125,17 +135,43 @@ bool PathIntegrator::scatter(const Surface& surface, const Scattering& scatterin
     path.throughput *= sample->weight;
     path.density = sample->density;
     path.ray = rayFrom(surface, sample->direction);
+    path.straight = 0;
     return true;
+}
+
+/// Goes on by reflection or transmission, drawn by Fresnel's law. Panes are passed straight, which
+/// the light sampled at the last surface has, too: only the chance of passing is noted. False where
+/// the path ends.
+bool PathIntegrator::passGlass(const SidePoint& point, Path& path, RandomStream& random) const {
+    const Surface surface = surfaceAt(scene_, point);
+    const Material& glass = scene_.material(point.triangle);
+    const GlassSplit split = splitAtGlass(glass.medium(), path.ray.direction, surface.normal,
+                                          surface.geometricNormal, point.front);
+    const Vec3 offset = rays_.epsilon() * surface.geometricNormal;
+    const bool reflects = random.next() < split.reflectance;
+    if (!reflects) path.throughput *= split.radianceScale * glass.transmission;
+    if (!reflects && glass.thin) {
+        path.straight += path.hit.t;
+        path.density *= split.transmittance;
+        path.ray = {surface.position - offset, path.ray.direction};
+        return maxComponent(path.throughput) > 0;
+    }
+    if (path.depth == options_.maxDepth) return false;
+    path.ray = reflects ? Ray{surface.position + offset, split.reflected}
+                        : Ray{surface.position - offset, split.transmitted};
+    path.density = kCertain;
+    path.straight = 0;
+    return ++path.depth < kRouletteDepth || survivesRoulette(path.throughput, random);
 }
 
 Ray PathIntegrator::rayFrom(const Surface& surface, const Vec3& direction) const {
     return {surface.position + rays_.epsilon() * surface.geometricNormal, direction};
 }
 
-bool PathIntegrator::visible(const Surface& surface, const Surface& emitter) const {
+Transmittance PathIntegrator::visible(const Surface& surface, const Surface& emitter) const {
     const Vec3 from = surface.position + rays_.epsilon() * surface.geometricNormal;
     const Vec3 to = emitter.position + rays_.epsilon() * emitter.geometricNormal;
-    return !rays_.occluded({from, to - from, 0, 1});
+    return rays_.transmittance({from, to - from, 0, 1});
 }
 
 }  // namespace vlf

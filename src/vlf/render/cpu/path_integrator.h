@@ -47,7 +47,8 @@ class PathIntegrator {
     bool scatter(const Surface& surface, const Scattering& scattering, Path& path,
                  RandomStream& random) const;
     Ray rayFrom(const Surface& surface, const Vec3& direction) const;
-    bool visible(const Surface& surface, const Surface& emitter) const;
+    bool passGlass(const SidePoint& point, Path& path, RandomStream& random) const;
+    Transmittance visible(const Surface& surface, const Surface& emitter) const;
 
     const Scene& scene_;
     const RayScene& rays_;

@@ -31,13 +31,13 @@ class SurfaceMaker {
         const std::uint64_t triangles = scene_.triangles.size();
         const std::uint64_t vertices = 2 * triangles, charts = vertices + 2 * vertexCount();
         const std::uint64_t materials = charts + 3 * charts_.size();
-        if (materials + 4 * scene_.materials.size() >= HitSurfaces::kNoRecord)
+        if (materials + 5 * scene_.materials.size() >= HitSurfaces::kNoRecord)
             throw InputError(
                 "the scene is too large for traced reflections: show it in mode field");
         firstVertex_ = static_cast<std::uint32_t>(vertices);
         firstChart_ = static_cast<std::uint32_t>(charts);
         firstMaterial_ = static_cast<std::uint32_t>(materials);
-        made_.records.reserve(materials + 4 * scene_.materials.size());
+        made_.records.reserve(materials + 5 * scene_.materials.size());
         addSides();
         addVertices();
         for (const Chart& chart : charts_) addChart(chart);
@@ -81,19 +81,23 @@ class SurfaceMaker {
             return first | (first + size) << 16;
         };
         std::uint32_t flags = chart.planar ? shared::kPlanarChart : 0;
-        if (scene_.materials[chart.material].emitsBothSides) flags |= shared::kEmitsBothSides;
+        const Material& material = scene_.materials[chart.material];
+        if (material.emitsBothSides) flags |= shared::kEmitsBothSides;
+        if (material.isGlass()) flags |= shared::kGlassChart;
+        if (material.isPane()) flags |= shared::kPaneChart;
         add(chart.uAxis, bits(chart.uOffset + static_cast<float>(chart.x)));
         add(chart.vAxis, bits(chart.vOffset + static_cast<float>(chart.y)));
         made_.records.push_back({range(chart.x, chart.width), range(chart.y, chart.height),
-                                 firstMaterial_ + 3 * chart.material, flags});
+                                 firstMaterial_ + 4 * chart.material, flags});
     }
 
     void addMaterials() {
-        nextTexture_ = firstMaterial_ + static_cast<std::uint32_t>(3 * scene_.materials.size());
+        nextTexture_ = firstMaterial_ + static_cast<std::uint32_t>(4 * scene_.materials.size());
         for (const Material& m : scene_.materials) {
             add(m.diffuse, textureRecord(m.diffuseTexture));
             add(m.mirror, textureRecord(m.mirrorTexture));
             add(m.emission, textureRecord(m.emissionTexture));
+            add(m.transmission, bits(m.ior));
         }
         for (const int texture : textures_)
             addTexture(scene_.textures[static_cast<std::size_t>(texture)]);

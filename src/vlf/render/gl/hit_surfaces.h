@@ -27,6 +27,7 @@ namespace vlf {
 ///     diffuse reflectance; texture
 ///     mirror reflectance; texture
 ///     emitted radiance; texture
+///     transmission and index of refraction of glass
 /// texture
 ///     first of its texels; width | height << 16; Wrap of u; Wrap of v
 struct HitSurfaces {

@@ -73,10 +73,11 @@ struct Renderer::Impl {
           shaders(options.shaderFolder),
           textures(scene),
           atlas(requireSameScene(scene, field), textureSide(options)),
-          canLookUp(!hasMirror(scene, MirrorKind::perfect) || !field.radiance.empty()),
+          canLookUp(!hasSpecular(scene, MirrorKind::perfect) || !field.radiance.empty()),
+          showsPanes(hasPane(scene)),
           objects(scene, field, shaders,
                   (hasMirror(scene, MirrorKind::rough) ||
-                   (hasMirror(scene, MirrorKind::perfect) && canLookUp)) &&
+                   (hasSpecular(scene, MirrorKind::perfect) && canLookUp)) &&
                       atlas.fit().unchanged()) {
         if (hasMirror(scene, MirrorKind::rough) && field.gloss.empty())
             throw InputError(
@@ -143,6 +144,9 @@ struct Renderer::Impl {
                       bool withObjects = false, bool probed = false) const {
         const bool traced = batch.mirror && settings.mode == DisplayMode::raytraced;
         const bool lookedUp = batch.rough || (batch.mirror && !traced);
+        // What solid glass shows by lookup are not reflections alone, among which objects are
+        // found.
+        const bool reflects = batch.mirror && (traced || !batch.glass || batch.pane);
         Defines d;
         if (scene.materials[batch.material].diffuseTexture >= 0) d.emplace("DIFFUSE_MAP", "1");
         if (maxComponent(Vec3(batch.data.emission)) > 0) d.emplace("EMISSION", "1");
@@ -154,7 +158,10 @@ struct Renderer::Impl {
             d.emplace("ROUGH", "1");
         if (lookedUp && (batch.rough ? gloss : radiance)->fourATexel())
             d.emplace("FOUR_A_TEXEL", "1");
-        if (withObjects) objects.addDefines(d, batch.mirror, traced, probed);
+        if (batch.glass) d.emplace("GLASS", "1");
+        if (batch.pane) d.emplace("PANE", "1");
+        if (batch.pane && !traced) d.emplace("BEHIND", "\"behind_pane.glsl\"");
+        if (withObjects) objects.addDefines(d, reflects, traced, probed);
         if (withObjects && batch.rough && objects.changesLookedUp()) d.emplace("CHANGED", "1");
         return d;
     }
@@ -168,8 +175,10 @@ struct Renderer::Impl {
             throw InputError("mode progressive takes many calls: it is ProgressiveRenderer's");
         } else if (!canLookUp) {
             throw InputError(
-                "the light field holds no radiance of mirrors to look up: bake with "
+                "the light field holds no radiance of mirrors or glass to look up: bake with "
                 "radiance directions, or trace reflections (mode raytraced)");
+        } else if (showsPanes && !objects.hits().hasRoom()) {
+            loadHits();
         }
     }
 
@@ -213,7 +222,7 @@ struct Renderer::Impl {
         }
         glBindVertexArray(vertexArray.id());
         for (std::size_t i = 0; i < batches.size(); ++i)
-            if (batches[i].mirror && !objects.empty())
+            if (batches[i].mirror && !batches[i].glass && !objects.empty())
                 drawMirror(i, view, settings);
             else
                 drawBatch(i, definesOf(batches[i], settings, !objects.empty()));
@@ -270,7 +279,7 @@ struct Renderer::Impl {
     void drawTriangles(bool lamps) const {
         glBindVertexArray(vertexArray.id());
         for (const RoomBatch& batch : batches)
-            if (lamps || !scene.materials[batch.material].isEmitter())
+            if (lamps || !(batch.glass || scene.materials[batch.material].isEmitter()))
                 glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(batch.indexCount),
                                GL_UNSIGNED_INT,
                                reinterpret_cast<const void*>(4 * std::size_t{batch.firstIndex}));
@@ -368,7 +377,7 @@ struct Renderer::Impl {
     std::size_t planes = 0;                  ///< in all
     VertexArray vertexArray;
     IrradianceTexture atlas;
-    bool canLookUp;
+    bool canLookUp, showsPanes;
     std::optional<RadianceBuffers> radiance, gloss;  ///< of perfect and rough mirrors
     std::vector<std::uint32_t> mirrorTriangles;
     ObjectStage objects;

@@ -14,7 +14,7 @@ class GeometryMaker {
     GeometryMaker(const Scene& scene, const LightField& field) : scene_(scene), field_(field) {
         for (std::uint32_t c = 0; c < field.charts.size(); ++c) {
             const Material& material = scene.materials[field.charts[c].material];
-            if (!material.isMirror()) continue;
+            if (!material.isSpecular()) continue;
             auto& charts = material.isGlossy() ? room_.roughCharts : room_.mirrorCharts;
             mirrorOf_.emplace(c, static_cast<std::uint32_t>(charts.size()));
             charts.push_back(c);

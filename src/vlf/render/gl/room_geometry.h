@@ -26,9 +26,10 @@ static_assert(sizeof(RoomVertex) == 40);
 struct RoomBatch {
     shared::MaterialData data;
     std::uint32_t material = 0;  ///< of the scene, for its textures
-    bool mirror = false;         ///< a perfect one
-    bool rough = false;          ///< a rough one
-    bool cull = false;           ///< the other side is in another batch
+    bool mirror = false;         ///< a perfect one, or glass
+    bool glass = false, pane = false;
+    bool rough = false;  ///< a rough one
+    bool cull = false;   ///< the other side is in another batch
     std::uint32_t firstIndex = 0, indexCount = 0;
 };
 

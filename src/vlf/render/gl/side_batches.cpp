@@ -9,7 +9,7 @@ namespace vlf {
 namespace {
 
 bool mirrors(const Scene& scene, const Side& side) {
-    return side.chart != kNoChart && scene.material(side.triangle).isMirror();
+    return side.chart != kNoChart && scene.material(side.triangle).isSpecular();
 }
 
 }  // namespace
@@ -41,12 +41,15 @@ RoomBatch batchOf(const Scene& scene, const Side& side, std::size_t firstIndex) 
     batch.material = scene.triangles[side.triangle].material;
     batch.mirror = mirrors(scene, side) && !material.isGlossy();
     batch.rough = mirrors(scene, side) && material.isGlossy();
+    batch.glass = side.chart != kNoChart && material.isGlass();
+    batch.pane = batch.glass && material.thin;
     batch.cull = side.cull;
     const bool emits = side.front || material.emitsBothSides;
     const float lit = side.chart == kNoChart ? 0 : 1;
     batch.data.diffuse = Vec4(lit * material.diffuse, 0);
     batch.data.mirror = Vec4(lit * material.mirror, 0);
     batch.data.emission = Vec4((emits ? lit : 0) * material.emission, 0);
+    batch.data.glass = Vec4(material.transmission, material.ior);
     batch.data.flags = Vec4(side.cull ? 0 : 1, 0, 0, 0);
     batch.firstIndex = static_cast<std::uint32_t>(firstIndex);
     return batch;

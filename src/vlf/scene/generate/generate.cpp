@@ -44,7 +44,10 @@ const std::vector<Entry>& entries() {
          [](int) { return makeCaustic(); }},
         {{"gloss", "a room with metal panels of three roughnesses and a polished floor"},
          false,
-         [](int) { return makeGloss(); }}};
+         [](int) { return makeGloss(); }},
+        {{"glass", "a room with a tinted pane, a ball and a block of glass"}, false, [](int) {
+             return makeGlass();
+         }}};
     return kEntries;
 }
 

@@ -15,5 +15,6 @@ Scene makeGrotto();
 Scene makeGallery(int statueTriangles);
 Scene makeCaustic();
 Scene makeGloss();
+Scene makeGlass();
 
 }  // namespace vlf

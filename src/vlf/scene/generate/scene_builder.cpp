@@ -55,6 +55,15 @@ MaterialId SceneBuilder::addMaterial(const std::string& name, const Vec3& diffus
     return static_cast<MaterialId>(scene_.materials.size()) - 1;
 }
 
+MaterialId SceneBuilder::addGlass(const std::string& name, const Vec3& transmission, float ior,
+                                  bool thin) {
+    const MaterialId id = addMaterial(name, Vec3(0));
+    scene_.materials[id].transmission = transmission;
+    scene_.materials[id].ior = ior;
+    scene_.materials[id].thin = thin;
+    return id;
+}
+
 MaterialId SceneBuilder::addRoughMirror(const std::string& name, const Vec3& diffuse,
                                         const Vec3& mirror, float roughness) {
     const MaterialId id = addMaterial(name, diffuse, mirror);
@@ -191,8 +200,7 @@ void SceneBuilder::addCells(const CellGrid& grid, const CellTest& inside,
 }
 
 void SceneBuilder::addCells(const CellGrid& grid, const CellTest& inside, MaterialId material) {
-    addCellFaces(
-        grid, inside, [&](const Vec3&, const Vec3&) { return material; }, false);
+    addCellFaces(grid, inside, [&](const Vec3&, const Vec3&) { return material; }, false);
 }
 
 void SceneBuilder::addCellRoom(const CellGrid& grid, const CellTest& inside,
@@ -223,6 +231,24 @@ void SceneBuilder::addLatheBand(const Vec2& from, const Vec2& to, int segments,
 void SceneBuilder::addLathe(std::span<const Vec2> profile, int segments, MaterialId material) {
     for (std::size_t i = 0; i + 1 < profile.size(); ++i)
         addLatheBand(profile[i], profile[i + 1], segments, material);
+}
+
+void SceneBuilder::addBall(const Vec3& centre, float radius, int rings, MaterialId material) {
+    std::vector<Vec2> profile;
+    for (int i = 0; i <= rings; ++i) {
+        const float angle = kPi * static_cast<float>(i) / static_cast<float>(rings);
+        const bool pole = i == 0 || i == rings;
+        profile.push_back(centre.y * Vec2(0, 1) +
+                          radius * Vec2(pole ? 0 : std::sin(angle), -std::cos(angle)));
+    }
+    const Mat4 outer = std::exchange(worldFromLocal_,
+                                     glm::translate(worldFromLocal_, Vec3(centre.x, 0, centre.z)));
+    const std::size_t first = scene_.positions.size();
+    addLathe(profile, 2 * rings, material);
+    const Vec3 middle(worldFromLocal_ * Vec4(0, centre.y, 0, 1));
+    for (std::size_t v = first; v < scene_.positions.size(); ++v)
+        scene_.normals[v] = glm::normalize(scene_.positions[v] - middle);
+    worldFromLocal_ = outer;
 }
 
 void SceneBuilder::addCylinder(const Vec3& from, const Vec3& to, float radius, int segments,

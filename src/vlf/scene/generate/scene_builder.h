@@ -45,6 +45,8 @@ class SceneBuilder {
     /// `roughness`: α of GGX.
     MaterialId addRoughMirror(const std::string& name, const Vec3& diffuse, const Vec3& mirror,
                               float roughness);
+    /// Glass; see Material.
+    MaterialId addGlass(const std::string& name, const Vec3& transmission, float ior, bool thin);
     /// A textured diffuse surface.
     MaterialId addMaterial(const std::string& name, Texture diffuse);
     /// A surface that emits `radiance` (W/m2/sr) on its front and reflects nothing.
@@ -91,6 +93,9 @@ class SceneBuilder {
     /// Surface of revolution about the local +y axis through a profile of (radius, height), which
     /// has the solid on its left. Round about the axis, creased between the profile's segments.
     void addLathe(std::span<const Vec2> profile, int segments, MaterialId material);
+
+    /// Closed ball with smooth normals.
+    void addBall(const Vec3& centre, float radius, int rings, MaterialId material);
 
     /// Closed cylinder between the centres of its ends.
     void addCylinder(const Vec3& from, const Vec3& to, float radius, int segments,

@@ -55,6 +55,8 @@ struct MaskedMaterials {
 struct ImportedScene {
     Scene scene;
     MaskedMaterials masked;
+    /// Materials of glass that is solid or a pane as its shape says (glass_bodies.h).
+    std::vector<std::uint32_t> glass;
 };
 
 }  // namespace vlf

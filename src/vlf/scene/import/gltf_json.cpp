@@ -17,11 +17,16 @@ using nlohmann::json;
 constexpr int kMaxJsonDepth = 200;
 constexpr std::size_t kMaxJsonBytes = std::size_t{1} << 30;
 
-const std::set<std::string> kSupported = {
-    "EXT_meshopt_compression", "EXT_texture_webp",
-    "KHR_lights_punctual",     "KHR_materials_emissive_strength",
-    "KHR_mesh_quantization",   "KHR_materials_pbrSpecularGlossiness",
-    "KHR_texture_transform"};
+const std::set<std::string> kSupported = {"EXT_meshopt_compression",
+                                          "EXT_texture_webp",
+                                          "KHR_lights_punctual",
+                                          "KHR_materials_emissive_strength",
+                                          "KHR_materials_ior",
+                                          "KHR_materials_transmission",
+                                          "KHR_materials_volume",
+                                          "KHR_mesh_quantization",
+                                          "KHR_materials_pbrSpecularGlossiness",
+                                          "KHR_texture_transform"};
 
 /// Extensions without which a scene can still be shown, even if they are required.
 bool isDispensable(const std::string& extension) {

@@ -21,6 +21,9 @@ constexpr double kMirrorRoughness = 0.05;
 /// Opacity from which on a surface that is to be blended is solid.
 constexpr double kBlendCutoff = 0.5;
 
+/// Transmission from which on a surface is glass.
+constexpr double kGlassTransmission = 0.5;
+
 Vec3 toVec3(const std::vector<double>& v, const Vec3& otherwise) {
     return v.size() < 3 ? otherwise : Vec3(v[0], v[1], v[2]);
 }
@@ -141,7 +144,12 @@ class MaterialBuilder {
         const SourceLocation where = file_.at(fmt::format("materials[{}] '{}'", i, m.name));
         const Surface surface = surfaceOf(m);
         GltfMaterial result;
-        if (leaveOutTransparent(opacityOf(m, surface), report_, where)) return result;
+        const double transmission = transmissionOf(m, surface, where);
+        const bool emits = maxComponent(toVec3(m.emissiveFactor, Vec3(0))) > 0;
+        const bool glass = transmission >= kGlassTransmission && !emits;
+        if (!glass && !emits &&
+            leaveOutTransparent(opacityOf(m, surface, transmission), report_, where))
+            return result;
         if (m.extensions.contains("KHR_materials_pbrSpecularGlossiness"))
             warn(report_, where, "specular-glossiness: the specular part is left out");
         if (m.normalTexture.index >= 0)
@@ -161,6 +169,7 @@ class MaterialBuilder {
         result.uv = emissionAlone ? emissionUv : baseUv;
         if (material.emissionTexture >= 0 && !(emissionUv == result.uv))
             result.emissionUv = emissionUv;
+        if (glass) setGlass(material, m, surface, static_cast<float>(transmission), where);
         const auto index = static_cast<std::uint32_t>(scene_.materials.size());
         if (!addMask(m, surface, index, where)) return result;
         result.index = index;
@@ -169,9 +178,51 @@ class MaterialBuilder {
     }
 
   private:
-    static float opacityOf(const tinygltf::Material& m, const Surface& surface) {
-        const double transmission =
-            extensionNumber(m.extensions, "KHR_materials_transmission", "transmissionFactor", 0);
+    /// Share of the light that a surface lets through, of what it neither reflects as a metal nor
+    /// as glass.
+    double transmissionOf(const tinygltf::Material& m, const Surface& surface,
+                          const SourceLocation& where) {
+        const auto found = m.extensions.find("KHR_materials_transmission");
+        if (found == m.extensions.end()) return 0;
+        const double factor = std::clamp(number(found->second, "transmissionFactor", 0), 0.0, 1.0);
+        return factor * (1 - surface.metallic) * meanRed(found->second, where);
+    }
+
+    /// Mean of the transmission texture; 1 if there is none.
+    double meanRed(const tinygltf::Value& extension, const SourceLocation& where) {
+        if (!extension.IsObject() || !extension.Has("transmissionTexture")) return 1;
+        const int index = wholeNumber(extension.Get("transmissionTexture"), "index", -1);
+        if (index < 0 || index >= static_cast<int>(file_.model.textures.size()))
+            throw InputError(where, fmt::format("textures[{}] does not exist", index));
+        const auto image = decode(imageOf(file_.model.textures[index], where), where);
+        if (!image || image->srgb8.empty()) return 1;
+        double sum = 0;
+        for (std::size_t i = 0; i < image->srgb8.size(); i += 4) sum += image->srgb8[i];
+        return sum * 4 / (255.0 * static_cast<double>(image->srgb8.size()));
+    }
+
+    /// Thin-walled unless the volume has a thickness; one tint for the whole surface.
+    void setGlass(Material& material, const tinygltf::Material& m, const Surface& surface,
+                  float transmission, const SourceLocation& where) {
+        const Vec3 tint = material.diffuseTexture < 0
+                              ? Vec3(1)
+                              : scene_.textures[material.diffuseTexture].average();
+        if (transmission < 1)
+            warn(report_, where, "glass in part: what it does not let through is absorbed");
+        makeGlass(
+            material, transmission * surface.base * tint,
+            static_cast<float>(extensionNumber(m.extensions, "KHR_materials_ior", "ior", 1.5)),
+            widthOfRoughness(static_cast<float>(surface.roughness)), report_, where);
+        material.thin =
+            !(extensionNumber(m.extensions, "KHR_materials_volume", "thicknessFactor", 0) > 0);
+        const auto volume = m.extensions.find("KHR_materials_volume");
+        if (volume != m.extensions.end() && volume->second.IsObject() &&
+            volume->second.Has("attenuationDistance"))
+            warn(report_, where, "attenuation within glass is left out");
+    }
+
+    static float opacityOf(const tinygltf::Material& m, const Surface& surface,
+                           double transmission) {
         const bool isBlended = m.alphaMode == "BLEND" && surface.baseTexture.index < 0;
         const double alpha = isBlended ? surface.alpha : 1;
         return static_cast<float>(std::min(alpha, 1 - transmission));

@@ -1,6 +1,7 @@
 #include "vlf/scene/import/import.h"
 
 #include "vlf/scene/import/cut_masks.h"
+#include "vlf/scene/import/glass_bodies.h"
 #include "vlf/scene/import/limits.h"
 #include "vlf/scene/import/warn.h"
 
@@ -27,10 +28,11 @@ ImportedScene readSceneFile(const std::string& path, ImportReport& report) {
                      fmt::format("unknown scene format '{}'; use .obj, .gltf or .glb", extension));
 }
 
-/// With holes where masks are transparent.
+/// With holes where masks are transparent, and glass told apart.
 Scene importFile(const std::string& path, ImportReport& report) {
     ImportedScene imported = readSceneFile(path, report);
     cutMasks(imported.scene, imported.masked, path, report);
+    sortGlass(imported.scene, imported.glass);
     return std::move(imported.scene);
 }
 

@@ -2,6 +2,8 @@
 
 #include "vlf/scene/import/warn.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -9,7 +11,9 @@ namespace vlf {
 
 namespace {
 constexpr float kLeastWidth = 1e-3f;  // narrower lobes are mirrors
-}
+constexpr float kLeastTransmission = 1e-4f;
+constexpr float kShownRoughness = 2.5e-3f;  // width of a lobe
+}  // namespace
 
 Texture toTexture(DecodedImage image, const std::string& name, Wrap wrapU, Wrap wrapV,
                   ImportReport& report, const SourceLocation& where) {
@@ -35,6 +39,20 @@ float widthOfExponent(float exponent) {
 
 float widthOfRoughness(float roughness) {
     return std::clamp(roughness * roughness, kLeastWidth, 1.0f);
+}
+
+void makeGlass(Material& material, const Vec3& transmission, float ior, float roughness,
+               ImportReport& report, const SourceLocation& where) {
+    material.diffuse = material.mirror = Vec3(0);
+    material.diffuseTexture = material.mirrorTexture = -1;
+    material.roughness = 0;
+    material.transmission = glm::clamp(transmission, Vec3(0), Vec3(1));
+    if (!material.isGlass()) material.transmission = Vec3(kLeastTransmission);
+    material.ior = std::clamp(ior, 1.0f, kMostIor);
+    if (!(material.ior == ior))
+        warn(report, where,
+             fmt::format("index of refraction {:g} is limited to 1 to {:g}", ior, kMostIor));
+    if (roughness > kShownRoughness) warn(report, where, "rough glass is shown as smooth");
 }
 
 bool leaveOutTransparent(float opacity, ImportReport& report, const SourceLocation& where) {

@@ -21,6 +21,12 @@ Texture toTexture(DecodedImage image, const std::string& name, Wrap wrapU, Wrap 
 float widthOfExponent(float exponent);
 float widthOfRoughness(float roughness);
 
+/// Makes a material smooth glass of this transmission (limited to [0, 1]; black is made nearly so)
+/// and index of refraction (limited to [1, kMostIor], with a warning), and nothing else but what it
+/// emits. `roughness`: width of the lobe that it should have; warns if that shows.
+void makeGlass(Material& material, const Vec3& transmission, float ior, float roughness,
+               ImportReport& report, const SourceLocation& where);
+
 /// Surfaces are opaque: true (with a warning) if one of this opacity is better left out, because
 /// it lets more than half of the light through. Warns too if it is kept and opacity < 1.
 bool leaveOutTransparent(float opacity, ImportReport& report, const SourceLocation& where);

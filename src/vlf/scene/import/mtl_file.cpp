@@ -68,6 +68,10 @@ class MtlParser {
             m.specular = parseColour(words);
         else if (key == "Ke")
             m.emission = parseColour(words);
+        else if (key == "Tf")
+            m.filter = parseColour(words);
+        else if (key == "Ni")
+            m.ior = parseValue(words.next());
         else if (key == "Ns")
             m.exponent = parseValue(words.next());
         else if (key == "Pr")

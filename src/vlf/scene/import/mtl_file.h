@@ -26,6 +26,8 @@ struct MtlMaterial {
     std::string path;                                 ///< of the MTL file
     int line = 0;                                     ///< of newmtl
     std::optional<Vec3> diffuse, specular, emission;  ///< Kd, Ks, Ke
+    std::optional<Vec3> filter;                       ///< Tf
+    std::optional<float> ior;                         ///< Ni
     std::optional<float> exponent;                    ///< Ns
     std::optional<float> roughness;                   ///< Pr
     std::optional<float> opacity;                     ///< d, else 1 - Tr

@@ -147,8 +147,7 @@ ImportedScene importObj(const std::string& path, ImportReport& report) {
         if (part.name.empty()) part.name = stem;
     ImportedScene imported;
     Scene& scene = imported.scene;
-    const std::vector<ObjMaterial> materials =
-        addObjMaterials(scene, imported.masked, file, report);
+    const std::vector<ObjMaterial> materials = addObjMaterials(imported, file, report);
     addMissingNormals(file);
     addTriangles(scene, file, materials);
     scene.cameras = readCameraSidecar(path, report);

@@ -21,6 +21,9 @@ namespace fs = std::filesystem;
 
 const Vec3 kUnknownGrey(0.5f);
 
+/// Index of refraction of glass that says none.
+constexpr float kUsualIor = 1.5f;
+
 /// Phong exponent from which on a highlight counts as a mirror image, and the roughness (Pr) below
 /// which it does.
 constexpr float kMirrorExponent = 500;
@@ -87,11 +90,9 @@ Specular specularKind(const MtlMaterial& m) {
                                                                   : Specular::mirror;
 }
 
-/// Illumination models 4, 6, 7 and 9 are glass.
-float opacityOf(const MtlMaterial& m) {
+bool isGlass(const MtlMaterial& m) {
     const int model = m.illumination.value_or(2);
-    if (model == 4 || model == 6 || model == 7 || model == 9) return 0;
-    return m.opacity.value_or(1);
+    return model == 4 || model == 6 || model == 7 || model == 9;
 }
 
 /// A factor that the file leaves out is 1 where there is a texture, else `otherwise`.
@@ -101,13 +102,17 @@ Vec3 factorOf(const std::optional<Vec3>& factor, int texture, const Vec3& otherw
 
 class MaterialBuilder {
   public:
-    MaterialBuilder(Scene& scene, MaskedMaterials& masked, ImportReport& report)
-        : scene_(scene), masked_(masked), report_(report) {}
+    MaterialBuilder(ImportedScene& imported, ImportReport& report)
+        : scene_(imported.scene),
+          masked_(imported.masked),
+          glass_(imported.glass),
+          report_(report) {}
 
     ObjMaterial add(const MtlMaterial& m) {
         const SourceLocation where{m.path, m.line, fmt::format("material '{}'", m.name)};
         ObjMaterial result;
-        if (leaveOutTransparent(opacityOf(m), report_, where)) return result;
+        if (!isGlass(m) && leaveOutTransparent(m.opacity.value_or(1), report_, where))
+            return result;
         setTextureTransform(result, m, where);
         Material material;
         material.name = m.name;
@@ -117,10 +122,17 @@ class MaterialBuilder {
         material.diffuse =
             factorOf(m.diffuse, material.diffuseTexture, special ? Vec3(0) : kUnknownGrey);
         material.emission = factorOf(m.emission, material.emissionTexture, Vec3(0));
-        addSpecular(material, m);
+        const bool glass = isGlass(m) && !material.isEmitter();
+        if (glass)
+            makeGlass(material, m.filter.value_or(Vec3(1)), m.ior.value_or(kUsualIor),
+                      widthOfRoughness(m.roughness.value_or(0)), report_, where);
+        else
+            addSpecular(material, m);
         result.index = addMaterial(std::move(material));
+        if (glass) glass_.push_back(*result.index);
         if (const int mask = loadMask(m); mask >= 0)
-            masked_.masks[*result.index] = {mask, kMaskThreshold / m.opacity.value_or(1)};
+            masked_.masks[*result.index] = {mask,
+                                            kMaskThreshold / (glass ? 1 : m.opacity.value_or(1))};
         return result;
     }
 
@@ -224,6 +236,7 @@ class MaterialBuilder {
 
     Scene& scene_;
     MaskedMaterials& masked_;
+    std::vector<std::uint32_t>& glass_;
     ImportReport& report_;
     std::map<std::pair<std::string, bool>, int> textures_;
     std::map<std::tuple<std::string, bool, char>, int> masks_;
@@ -288,10 +301,10 @@ std::unordered_map<std::string, MtlMaterial> readLibraries(const ObjFile& file,
 
 }  // namespace
 
-std::vector<ObjMaterial> addObjMaterials(Scene& scene, MaskedMaterials& masked, const ObjFile& file,
+std::vector<ObjMaterial> addObjMaterials(ImportedScene& imported, const ObjFile& file,
                                          ImportReport& report) {
     const auto library = readLibraries(file, report);
-    MaterialBuilder builder(scene, masked, report);
+    MaterialBuilder builder(imported, report);
     std::vector<ObjMaterial> result;
     for (const ObjName& used : file.materials) {
         const auto found = library.find(used.name);

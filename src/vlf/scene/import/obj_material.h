@@ -17,10 +17,10 @@ struct ObjMaterial {
 };
 
 /// Reads the material libraries of the file and adds the materials that it uses, and their
-/// textures, to the scene, and their alpha masks to `masked`. The result runs parallel to
+/// textures, alpha masks and what is glass, to what is imported. The result runs parallel to
 /// file.materials; one more at the end stands for faces without usemtl. Unknown materials and
 /// missing libraries or textures are reported.
-std::vector<ObjMaterial> addObjMaterials(Scene& scene, MaskedMaterials& masked, const ObjFile& file,
+std::vector<ObjMaterial> addObjMaterials(ImportedScene& imported, const ObjFile& file,
                                          ImportReport& report);
 
 }  // namespace vlf

@@ -1,6 +1,9 @@
 // Objects before what a mirror of the room shows by lookup: the reflection is traced among the
 // objects alone, and the distances that are looked up say how far.
 #include "path_step.glsl"
+#ifdef PANE
+#include "glass_split.glsl"
+#endif
 #ifdef PROBES
 #include "probed_path.glsl"
 #endif
@@ -21,6 +24,14 @@ vec3 metRadiance(int object, TraceHit hit, TracedPath path) {
     return radiance;
 }
 
+vec3 reflectedShare(vec3 toEye) {
+#ifdef PANE
+    return vec3(paneReflectance(dot(geometricNormal, toEye), material.glass.w));
+#else
+    return material.mirror.rgb * textureLod(mirrorMap, uv, 0).rgb;
+#endif
+}
+
 // `seen` is what the mirror shows without objects: a surface of radiance `front` at the distance
 // `nearest` that covers so much of another one at the distance `behind`.
 vec3 withObjects(vec3 seen, vec3 front, float nearest, float behind, float coverage, vec3 toEye) {
@@ -39,8 +50,7 @@ vec3 withObjects(vec3 seen, vec3 front, float nearest, float behind, float cover
     vec3 shown = seen * change;
     // A loop is skipped where no ray has met anything, unless it is seen to be none.
     while (object >= 0) {
-        vec3 met = metRadiance(object, hit, path) * material.mirror.rgb *
-                   textureLod(mirrorMap, uv, 0).rgb;
+        vec3 met = metRadiance(object, hit, path) * reflectedShare(toEye);
         shown = hit.t < nearest + tolerance ? met : mix(met, front * change, coverage);
         object = -1 - int(hit.triangle & 1u);
     }

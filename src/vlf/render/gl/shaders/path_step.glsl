@@ -9,8 +9,12 @@ struct TracedPath {
     vec3 throughput;
 };
 
+float maxOf(vec3 v) {
+    return max(v.r, max(v.g, v.b));
+}
+
 bool isDark(vec3 throughput) {
-    return max(throughput.r, max(throughput.g, throughput.b)) < kMinThroughput;
+    return maxOf(throughput) < kMinThroughput;
 }
 
 // Reflects the path, which has come to a surface.

@@ -84,6 +84,8 @@ VLF_INT kBlueBits = 7;
 // Flags of a chart and modes of a texture in hit_surfaces.h.
 VLF_INT kPlanarChart = 1;
 VLF_INT kEmitsBothSides = 2;
+VLF_INT kGlassChart = 4;
+VLF_INT kPaneChart = 8;  // of glass
 VLF_INT kWrapClamp = 1;
 VLF_INT kWrapMirror = 2;
 
@@ -114,6 +116,7 @@ struct MaterialData {
     vec4 diffuse;   // reflectance
     vec4 mirror;    // reflectance
     vec4 emission;  // W m^-2 sr^-1
+    vec4 glass;     // transmission, index of refraction
     vec4 flags;     // x: whether the back is black; y: the batch's first triangle among mirrors'
 };
 
@@ -150,6 +153,6 @@ static_assert(sizeof(ShadowData) == 64 + 2 * 16);
 static_assert(sizeof(ObjectsData) == 5 * 16 + kMostReceivers * 5 * 16);
 static_assert(sizeof(ViewData) == 64 + 3 * 16);
 static_assert(sizeof(RadianceData) == 4 * 16);
-static_assert(sizeof(MaterialData) == 4 * 16);
+static_assert(sizeof(MaterialData) == 5 * 16);
 }  // namespace vlf::shared
 #endif

@@ -23,6 +23,8 @@ flat in uint mirror;
 layout(binding = kMirrorMapUnit) uniform sampler2D mirrorMap;
 in vec3 mirrorNormal;
 #endif
+// First, as it includes what the other one may leave out.
+#include BEHIND
 #include MIRROR
 #endif
 
@@ -43,6 +45,9 @@ void main() {
 #endif
 #ifdef MIRROR
     radiance += mirrorRadiance();
+#ifdef BEHIND
+    radiance += behindPane();
+#endif
 #endif
 #ifdef SHADOWS
     vec3 side = normalize(cross(dFdx(position), dFdy(position)));

@@ -1,5 +1,6 @@
 // What a chain of reflections shows; as render/cpu/field_shader.cpp.
 #include "path_step.glsl"
+#include "glass_step.glsl"
 
 const int kMaxReflections = 16;
 
@@ -15,7 +16,7 @@ bool traceAll(vec3 origin, vec3 direction, out TraceHit hit) {
     return hit.triangle != kNoTriangle;
 }
 
-// What is seen along a path that has been reflected once.
+// What is seen along a path that has been reflected or has passed glass once.
 vec3 tracedRadiance(TracedPath path) {
     vec3 seen = vec3(0);
     TraceHit hit;
@@ -30,8 +31,15 @@ vec3 tracedRadiance(TracedPath path) {
 #ifdef SHADOWS
         if (body.object < 0) path.throughput *= remainingOn(s.position, s.geometricNormal);
 #endif
-        seen += path.throughput * ownRadiance(s);
-        reflectPath(s, path);
+        if (isGlass(s)) {
+            passGlass(s, path);
+        } else {
+            seen += path.throughput * ownRadiance(s);
+            reflectPath(s, path);
+        }
     }
+#ifdef OBJECTS
+    body = kRoomBody;
+#endif
     return seen;
 }

@@ -1,4 +1,4 @@
-// What a mirror of the room shows, by tracing its reflections.
+// What a mirror of the room shows, by tracing its reflections; or glass, with what it transmits.
 #include "traced_path.glsl"
 
 layout(binding = kMirrorTriangleUnit) uniform usamplerBuffer mirrorTriangles;
@@ -13,6 +13,21 @@ TraceHit drawnSurface() {
     return TraceHit(triangle, 0, barycentric);
 }
 
+#ifdef GLASS
+vec3 mirrorRadiance() {
+    vec3 sight = normalize(position - view.eye.xyz);
+    HitSurface s = surfaceAt(drawnSurface(), sight);
+    if (s.chart == kNoRecord) return vec3(0);
+    GlassSplit g = splitAtGlass(s, sight);
+    vec3 seen = vec3(0);
+    for (int branch = 0; branch < 2; ++branch) {
+        TracedPath path = TracedPath(position, sight, vec3(1));
+        followGlass(s, g, branch == 1, path);
+        seen += tracedRadiance(path);
+    }
+    return seen;
+}
+#else
 vec3 mirrorRadiance() {
     TracedPath path = TracedPath(position, normalize(position - view.eye.xyz), vec3(1));
     HitSurface s = surfaceAt(drawnSurface(), path.direction);
@@ -20,3 +35,4 @@ vec3 mirrorRadiance() {
     reflectPath(s, path);
     return tracedRadiance(path);
 }
+#endif
