@@ -2,6 +2,7 @@
 
 #include "bake_checkpoint.h"
 #include "bake_options.h"
+#include "camera_options.h"
 #include "commands.h"
 #include "console.h"
 #include "picture_output.h"
@@ -12,6 +13,7 @@
 #include "vlf/propagate/bake.h"
 #include "vlf/propagate/bundle_sweep.h"
 #include "vlf/propagate/memory.h"
+#include "vlf/render/cpu/texel_picture.h"
 #include "vlf/scene/scene_hash.h"
 
 #include <chrono>
@@ -32,7 +34,8 @@ namespace {
 struct Options {
     std::vector<std::string> scenes;
     QualityOptions quality;
-    std::string output, json, instructionSet;
+    CameraOptions camera;  // of the error map
+    std::string output, json, errorMap, instructionSet;
     double maxMemory = 0;         // GiB
     double checkpointEvery = 60;  // seconds; 0: never
     bool resume = false;
@@ -76,6 +79,15 @@ nlohmann::ordered_json toJson(const Options& options, const BakeReport& report,
             {"exchanges", report.exchanges},
             {"bounces", report.sweeps},
             {"residual", report.residual},
+            {"refinements", report.refinements},
+            {"refinedLines", report.finalLines},
+            {"estimatedError",
+             {{"ofTexels", report.error.ofTexels()},
+              {"interpolated", report.error.interpolated()},
+              {"direct", report.error.direct},
+              {"indirect", report.error.indirect},
+              {"missing", report.error.missing},
+              {"texelSize", report.error.texelSize}}},
             {"energy",
              {{"emitted", numbers(e.emitted)},
               {"absorbed", numbers(e.absorbed)},
@@ -96,10 +108,34 @@ void printReport(const Options& options, const BakeReport& report, double second
     const EnergyReport& e = report.energy;
     fmt::print("  {} bounces, {:.1f} M exchanges, light still missing {:.2g} %\n", report.sweeps,
                1e-6 * static_cast<double>(report.exchanges), 100 * report.residual);
+    if (report.refinements > 0)
+        fmt::print("  refined in {} steps to {} lines{}\n", report.refinements, report.finalLines,
+                   options.quality.seconds > 0
+                       ? fmt::format("; to repeat it: --refinements {}", report.refinements)
+                       : "");
+    const ErrorReport& error = report.error;
+    fmt::print(
+        "  estimated error {:.2g} % of the texels (direct light {:.2g}, indirect {:.2g}, missing "
+        "{:.2g}), {:.2g} % with what lies between them\n",
+        100 * error.ofTexels(), 100 * error.direct, 100 * error.indirect, 100 * error.missing,
+        100 * error.interpolated());
     fmt::print("  energy: {:.4g} W emitted, {:.4g} W absorbed, {:.2g} W unshot, {:.4g} W escaped\n",
                luminance(e.emitted), luminance(e.absorbed), luminance(e.unshot),
                luminance(e.escaped));
     fmt::print("  {:.2f} s in all, peak memory {:.0f} MiB\n", seconds, peakMebibytes());
+}
+
+// Relative errors that the error map shows in black and in pale yellow.
+constexpr float kLeastError = 1e-3f, kMostError = 0.1f;
+
+void writeErrorMap(const Options& options, const BakedRoom& room, const Camera& camera,
+                   const BakeReport& report, Progress& progress) {
+    progress.stage("error map");
+    const RayScene rays(room.scene);
+    writeFinished(
+        options.errorMap,
+        drawTexelValues(room.scene, rays, room.field, report.texelErrors, kLeastError, kMostError,
+                        camera, options.camera.width, options.camera.height, progress));
 }
 
 /// Writes the field, after which its checkpoint has had its day.
@@ -122,13 +158,15 @@ std::string checkInterval(const std::string& text) {
 }
 
 void run(const Options& options, const Globals& globals) {
-    requireWritableOutputs({options.output, options.json});
+    requireWritableOutputs({options.output, options.json, options.errorMap});
     const BakeOutput output(options.output);
     if (!options.instructionSet.empty()) useInstructionSet(options.instructionSet);
     const auto start = std::chrono::steady_clock::now();
     const BakeParams params = bakeParams(options.quality, globals);
     BakedRoom room;
     room.scene = readScene(options, globals);
+    const Camera camera =
+        chooseCamera(options.camera, room.scene.cameras, room.scene.cameras.front());
     const auto maxMemory = static_cast<std::uint64_t>(options.maxMemory * 1024 * 1024 * 1024);
     if (maxMemory > 0) requireMemory(room.scene, params, maxMemory);
     const std::string hash = sceneHash(room.scene);
@@ -151,6 +189,7 @@ void run(const Options& options, const Globals& globals) {
         room.field.record.programVersion = VLF_VERSION;
         room.field.record.sceneHash = hash;
         write(options, room, checkpoint);
+        if (!options.errorMap.empty()) writeErrorMap(options, room, camera, report, progress);
     }
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
     if (!options.json.empty())
@@ -180,10 +219,20 @@ void addBake(CLI::App& app, const Globals& globals) {
         ->check(checkInterval);
     command->add_flag("--resume", options->resume, "Go on with a bake that was interrupted");
     command->add_option("--json", options->json, "Write a report of times, counts and energy");
+    command
+        ->add_option(
+            "--error-map", options->errorMap,
+            "Write a picture of the estimated error (.png): black 0.1 % of the light, pale "
+            "yellow 10 %")
+        ->check([](const std::string& path) {
+            return path.ends_with(".png") ? "" : "must end in .png";
+        });
+    addCameraOptions(*command, options->camera);
     command->footer(
         "Examples:\n"
         "  vlf bake room.obj -o room.vlf\n"
         "  vlf bake room.glb lights.obj -o room.vlf --preset high --texel 0.03\n"
+        "  vlf bake room.obj -o room.vlf --error 1% --error-map error.png\n"
         "  vlf bake room.obj -o room.vlf --resume\n"
         "Ctrl-C stops and keeps what is done in room.vlf.checkpoint, from which --resume goes on.\n"
         "A field file that was there before is left as it was.");

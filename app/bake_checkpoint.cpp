@@ -32,7 +32,8 @@ CheckpointIdentity identityOf(const BakeParams& params, const std::string& scene
     // Names all members: one that is added has to be thought of here.
     const auto& [preset, directions, cells, texelSize, texelBudget, directSamples, coarseDirections,
                  coarseCells, maxBounces, tolerance, settlingSweeps, radianceDirections,
-                 radianceCells, glossDirections, glossCells, gloss, tileSize, seed] = params;
+                 radianceCells, glossDirections, glossCells, gloss, tileSize, error, seconds,
+                 refinements, seed] = params;
     const auto text = [](const auto& value) { return fmt::format("{}", value); };
     return {{"the program's version", VLF_VERSION},
             {"the scene's fingerprint", sceneHash},
@@ -54,6 +55,9 @@ CheckpointIdentity identityOf(const BakeParams& params, const std::string& scene
             {"--gloss-cells", text(glossCells)},
             {"--gloss-samples", fmt::format("{} and {}", gloss.reflections, gloss.emitters)},
             {"--tile", text(tileSize)},
+            {"--error", text(error)},
+            {"--seconds", text(seconds)},
+            {"--refinements", text(refinements)},
             {"--seed", text(seed)}};
 }
 
@@ -66,7 +70,9 @@ std::string placeOf(const BakeSolution& solution) {
         case BakeStage::bounce:
             return fmt::format("after {} bounces", solution.report.sweeps);
         case BakeStage::settled:
-            return "in the last sweep";
+            return solution.refinement.steps > 0
+                       ? fmt::format("after {} steps of refinement", solution.refinement.steps)
+                       : "in the last sweep";
         case BakeStage::solved:
             return "the radiance fields";
     }

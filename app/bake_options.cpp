@@ -1,6 +1,8 @@
 #include "bake_options.h"
 
 #include <algorithm>
+#include <optional>
+#include <string>
 
 namespace vlf::app {
 
@@ -11,6 +13,35 @@ std::string checkBounces(const std::string& text) {
     const bool digits = !text.empty() && text.size() < 5 &&
                         text.find_first_not_of("0123456789") == std::string::npos;
     return digits && std::stoi(text) > 0 ? std::string() : "must be 'auto' or a number above 0";
+}
+
+/// "1%" or "0.01" as a number; none if it is neither or not within (0, 1].
+std::optional<double> parseShare(std::string text) {
+    const bool percent = text.ends_with('%');
+    if (percent) text.pop_back();
+    double value = 0;
+    if (!CLI::detail::lexical_cast(text, value)) return {};
+    if (percent) value /= 100;
+    return value > 0 && value <= 1 ? std::optional(value) : std::nullopt;
+}
+
+std::string shareProblem(const std::string& text) {
+    return parseShare(text) ? "" : "must be a share above 0, as in 1% or 0.01";
+}
+
+void addRefinementOptions(CLI::Option_group& group, QualityOptions& o) {
+    group
+        .add_option_function<std::string>(
+            "--error", [&o](const std::string& text) { o.error = *parseShare(text); },
+            "Refine until the estimated error of the texels is this, as in 1%")
+        ->check(shareProblem)
+        ->type_name("E");
+    group.add_option("--seconds", o.seconds, "Refine as long as this allows")
+        ->check(CLI::PositiveNumber);
+    group
+        .add_option("--refinements", o.refinements,
+                    "Refine in so many steps: repeats a bake with --seconds")
+        ->check(CLI::Range(1, 100000));
 }
 
 }  // namespace
@@ -48,6 +79,7 @@ CLI::Option_group* addQualityOptions(CLI::App& command, QualityOptions& o) {
         ->check(CLI::Range(1, 4096));
     group->add_option("--tile", o.tile, "Tiles of both, cells along one side")
         ->check(CLI::IsMember({4, 8, 16, 32, 64}));
+    addRefinementOptions(*group, o);
     return group;
 }
 
@@ -58,6 +90,9 @@ BakeParams bakeParams(const QualityOptions& o, const Globals& globals) {
 }
 
 BakeParams withSettings(const QualityOptions& o, BakeParams p) {
+    if (o.error > 0 || o.seconds > 0 || o.refinements > 0) p = refiningParams(p, o.error);
+    p.seconds = o.seconds;
+    p.refinements = o.refinements;
     if (o.directions > 0) p.directions = o.directions;
     if (o.cells > 0) p.cells = o.cells;
     if (o.tile > 0) p.tileSize = o.tile;

@@ -18,6 +18,8 @@ struct QualityOptions {
     int radianceDirections = -1, radianceCells = 0;
     int glossDirections = -1, glossCells = 0, glossSamples = 0;
     float texel = 0;
+    double error = 0, seconds = 0;  // of a refinement
+    int refinements = 0;
 };
 
 /// The group of the options; `options` must outlive the parsing.

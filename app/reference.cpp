@@ -32,7 +32,7 @@ struct Options {
     int maxDepth = 0;
     std::string field;  // .vlf whose irradiance is to be measured
     int texels = 0;
-    bool texelPoints = false;
+    bool texelPoints = false, interpolated = false;
 };
 
 PathTraceParams traceParams(const Options& options, const Globals& globals, const Scene& scene) {
@@ -102,7 +102,7 @@ void run(const Options& options, const Globals& globals) {
             throw CLI::ValidationError("--irradiance", "needs --spp, the samples per texel");
         return runIrradianceReference(
             {options.scenes, options.field, options.picture.path, options.samplesPerPixel,
-             options.texels, options.texelPoints},
+             options.texels, options.texelPoints, options.interpolated},
             globals);
     }
     if (const std::string problem = pictureNameProblem(options.picture.path); !problem.empty())
@@ -151,6 +151,11 @@ void addIrradianceOptions(CLI::App& command, Options& options) {
     command
         .add_flag("--texel-points", options.texelPoints,
                   "Report the points of the surface that each texel stands for")
+        ->needs(irradiance);
+    command
+        .add_flag("--interpolated", options.interpolated,
+                  "Measure the light as it is shown, interpolated between texels, at a random "
+                  "point of each instead of its mean over the texel")
         ->needs(irradiance);
 }
 

@@ -75,21 +75,35 @@ bool isFlat(const Scene& scene, const Chart& chart, std::span<const SurfacePoint
            });
 }
 
+/// What stands for a texel: its points, or one of them.
+std::span<const SurfacePoint> pointsOf(const Unwrap& unwrap, std::size_t i, bool onlyOne,
+                                       std::uint64_t seed) {
+    const auto points = unwrap.points.of(i);
+    if (!onlyOne) return points;
+    RandomStream random(seed, mixBits(i));
+    const float u = random.next() * static_cast<float>(points.size());
+    return points.subspan(std::min(static_cast<std::size_t>(u), points.size() - 1), 1);
+}
+
 Selection select(const BakedRoom& room, const Unwrap& unwrap,
-                 const std::vector<std::size_t>& texels) {
+                 const std::vector<std::size_t>& texels, bool interpolated, std::uint64_t seed) {
     Selection s;
     for (const std::size_t i : texels) {
         const std::uint32_t chart = unwrap.texelChart[i];
+        const auto texelPoints = pointsOf(unwrap, i, interpolated, seed);
         std::vector<SidePoint>& points = s.points.emplace_back();
         std::vector<Vec3>& positions = s.positions.emplace_back();
-        for (const SurfacePoint& p : unwrap.points.of(i)) {
+        for (const SurfacePoint& p : texelPoints) {
             const bool front = unwrap.triangleCharts[p.triangle].front == chart;
             points.push_back({p.triangle, p.barycentric, front});
             positions.push_back(positionAt(room.scene, p.triangle, p.barycentric));
         }
         s.normal.push_back(unwrap.charts[chart].normal);
-        s.flat.push_back(isFlat(room.scene, unwrap.charts[chart], unwrap.points.of(i)));
-        s.baked.push_back(room.field.atlas.irradiance[unwrap.texels[i]]);
+        s.flat.push_back(isFlat(room.scene, unwrap.charts[chart], texelPoints));
+        const Chart& c = unwrap.charts[chart];
+        const IrradianceAtlas& atlas = room.field.atlas;
+        s.baked.push_back(interpolated ? atlas.sample(c, c.texelCoordinates(positions[0]))
+                                       : atlas.irradiance[unwrap.texels[i]]);
         s.area.push_back(unwrap.texelArea(i));
     }
     return s;
@@ -144,7 +158,8 @@ void runIrradianceReference(const IrradianceOptions& options, const Globals& glo
                                         {field.atlas.width, field.atlas.height});
     const Selection s =
         select(room, unwrap,
-               chooseTexels(scatteringTexels(room.scene, unwrap), options.texels, globals.seed));
+               chooseTexels(scatteringTexels(room.scene, unwrap), options.texels, globals.seed),
+               options.interpolated, globals.seed);
     const std::vector<TexelArea> areas(s.points.begin(), s.points.end());
     const auto isOpen = [&](std::uint32_t triangle, bool front) {
         const TriangleCharts& c = field.triangleCharts[triangle];

@@ -112,6 +112,23 @@ class Pipeline(Case):
                 self.assertAlmostEqual(a, b, places=4)
         self.assertLess(report["relativeRmse"], 0.1)
 
+    def test_a_bake_tells_and_shows_its_error(self):
+        self.bake("room.vlf", "--json", "bake.json", "--error-map", "map.png", "--size", "80x60")
+        error = self.json("bake.json")["estimatedError"]
+        self.assertTrue(0 < error["ofTexels"] < error["interpolated"] < 0.3, error)
+        self.assertGreater((self.folder / "map.png").stat().st_size, 500)
+        self.run_vlf("reference", "cornell.obj", "--irradiance", "room.vlf", "--spp", "256",
+                     "--texels", "100", "--interpolated", "-o", "error.json")
+        self.assertEqual(len(self.json("error.json")["texels"]), 100)
+
+    def test_a_bake_ends_at_the_error_asked_for(self):
+        self.bake("one.vlf", "--json", "bake.json", "--error", "0.6%")
+        report = self.json("bake.json")
+        self.assertLessEqual(report["estimatedError"]["ofTexels"], 0.006)
+        self.assertGreater(report["refinements"], 1)
+        self.assertEqual(self.bake("two.vlf", "--error", "0.006").read_bytes(),
+                         (self.folder / "one.vlf").read_bytes())
+
     def test_the_field_is_the_same_for_any_number_of_threads(self):
         one = self.bake("1.vlf", "--threads", "1").read_bytes()
         for threads in ("2", "7"):
@@ -350,6 +367,15 @@ class BadInput(Case):
     def test_a_bad_preset_is_a_usage_error(self):
         self.run_vlf("bake", "cornell.obj", "-o", "a.vlf", "--preset", "best", code=USAGE,
                      says=["preset"])
+
+    def test_an_error_that_is_none_is_a_usage_error(self):
+        for error in ("0", "-1%", "200%", "little", "%"):
+            self.run_vlf("bake", "cornell.obj", "-o", "a.vlf", "--error", error, code=USAGE,
+                         says=["--error"])
+
+    def test_an_error_out_of_reach_is_refused_with_advice(self):
+        self.bake_fails("cornell.obj", BAD_INPUT, ["out of reach", "--texel"], "a.vlf", "--texel",
+                        "0.4", "--error", "0.0001")
 
     def test_options_of_pictures_are_no_options_of_irradiance(self):
         self.bake("room.vlf")

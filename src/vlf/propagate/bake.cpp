@@ -99,6 +99,11 @@ void checkParams(const BakeParams& p) {
     if (p.cells < 16 || p.cells > 8192)
         throw InputError("cells must lie between 16 and 8192, not " + std::to_string(p.cells));
     if (p.texelSize < 0) throw InputError("the texel size must be positive");
+    if (p.error < 0 || p.seconds < 0 || p.refinements < 0)
+        throw InputError("what ends the refinement must be positive");
+    if (refines(p) && p.maxBounces > 0)
+        throw InputError("a refinement (--error, --seconds, --refinements) needs light at rest: "
+                         "leave the bounces to it (--bounces auto)");
     if (p.directSamples < 1) throw InputError("direct light needs at least one sample");
 }
 
@@ -124,9 +129,11 @@ void lightDirectly(BakeState& state, Progress& progress, const BakeObserver& obs
                                 state.direct, progress))
             observe(state);
     });
-    for (const DirectEstimate& e : state.direct.estimates)
+    for (const DirectEstimate& e : state.direct.estimates) {
         state.directIrradiance.push_back(e.value);
-    state.direct = {};
+        state.directVariance.push_back(e.squareError());
+    }
+    if (!refines(state.params)) state.direct = {};
     state.irradiance = state.directIrradiance;
     state.reached.assign(state.irradiance.size(), 0);
     state.stage = BakeStage::directLight;
@@ -238,6 +245,11 @@ LightField finish(BakeState& state, Progress& progress, const BakeObserver& obse
     LightField field = unlitField(state);
     field.atlas = timed(state.report, progress, "atlas", [&] { return fillAtlas(state); });
     addRadianceFields(state, field, progress, observe);
+    const ErrorEstimate estimate = estimateError(state);
+    state.report.error = reportError(state, estimate);
+    state.report.refinements = state.refinement.steps;
+    state.report.finalLines = state.refinement.sweptLines;
+    state.report.texelErrors = relativeErrors(state, estimate);
     state.report.energy = energyBalance(state);
     BakeRecord& r = field.record;
     r.radianceDirections = field.radiance.lines;
@@ -245,6 +257,8 @@ LightField finish(BakeState& state, Progress& progress, const BakeObserver& obse
     r.glossDirections = field.gloss.lines;
     r.glossCells = field.gloss.cells;
     r.tileSize = field.radiance.empty() ? field.gloss.tileSize : field.radiance.tileSize;
+    if (refines(state.params))
+        r.directions = nearestSet(static_cast<double>(state.refinement.sweptLines));
     r.bounces = state.report.sweeps;
     r.residual = state.report.residual;
     r.energy = state.report.energy;

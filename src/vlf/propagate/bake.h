@@ -42,6 +42,10 @@ struct BakeParams {
     int glossCells = 128;
     GlossSamples gloss{};
     int tileSize = 8;  ///< m, a power of two
+    // Refinement: fine sweeps and samples of direct light are added until one of these is met.
+    double error = 0;     ///< estimated error of the texels, relative; 0: none
+    double seconds = 0;   ///< in all, as far as can be foretold; 0: none
+    int refinements = 0;  ///< so many steps, as a bake that ended in time has taken; 0: none
     std::uint64_t seed = 0;
 };
 
@@ -70,6 +74,7 @@ struct BakeState : BakeSolution {
     std::vector<BentTexel> bentTexels;
     std::vector<Vec3> reflectance;  ///< diffuse
     std::vector<Vec3> absorptance;  ///< 1 - diffuse - mirror reflectance
+    RefinementClock clock;
 };
 
 /// Is shown the states on the way, by the thread that bakes and between its parallel loops: when
@@ -89,8 +94,13 @@ BakeState makeState(const Scene& scene, const BakeParams& params, Progress& prog
 void propagateOnce(BakeState& state, int directions, int cells, int sweep, Progress& progress,
                    const BakeObserver& observe = unobserved);
 
+/// Another fine sweep, over a random rotation of `directions` lines, whose samples are added to
+/// those of the ones before: the state's irradiance becomes that of all of them.
+void refineOnce(BakeState& state, int directions, Progress& progress,
+                const BakeObserver& observe = unobserved);
+
 /// Coarse bounces until the light still missing is below the tolerance (or for
-/// params.maxBounces), then one fine one.
+/// params.maxBounces), then one fine one or, with a refinement, as many as it takes.
 void propagate(BakeState& state, Progress& progress, const BakeObserver& observe = unobserved);
 
 /// Where the state's light field lies, its charts and of its record the parameters; no light (see

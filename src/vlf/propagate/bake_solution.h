@@ -6,7 +6,9 @@
 #include "vlf/propagate/bent_texels.h"
 #include "vlf/propagate/convergence.h"
 #include "vlf/propagate/direct_light.h"
+#include "vlf/propagate/error_estimate.h"
 #include "vlf/propagate/radiance_bake.h"
+#include "vlf/propagate/refinement.h"
 #include "vlf/propagate/texel_buffer.h"
 
 #include <array>
@@ -41,6 +43,11 @@ struct Sweep {
     std::array<TexelBuffer, kAccumulators> parts;  ///< what the texels gather
     TexelBuffer gathered;                          ///< the sum of the parts, once all have ended
     LoopMarks toppedUp;                            ///< blocks of texels
+
+    /// Whether the parts matter: a sweep is under way, or one more may follow on top.
+    bool isKept(BakeStage stage, const Refinement& refinement) const {
+        return !nextLine.empty() || (stage < BakeStage::solved && refinement.sweptLines > 0);
+    }
 };
 
 /// The mean over the last coarse sweeps, under way.
@@ -61,7 +68,11 @@ struct BakeReport {
     std::size_t radianceElements = 0;  ///< of perfect and rough mirrors
     std::uint64_t exchanges = 0;
     int sweeps = 0;
-    double residual = 1;  ///< estimated light still missing, relative
+    int refinements = 0;             ///< steps of the refinement
+    std::uint64_t finalLines = 0;    ///< of its sweeps
+    double residual = 1;             ///< estimated light still missing, relative
+    ErrorReport error;               ///< estimated
+    std::vector<float> texelErrors;  ///< estimated, see relativeErrors
     EnergyReport energy;
 };
 
@@ -71,12 +82,20 @@ struct BakeSolution {
     BakeReport report;
     DirectLight direct;
     std::vector<Vec3> directIrradiance;
-    std::vector<Vec3> irradiance;       ///< direct and all bounces so far
-    std::vector<std::uint8_t> reached;  ///< whether any ray has met the texel
+    std::vector<float> directVariance;    ///< (W·m⁻²)², summed over the channels
+    std::vector<float> indirectVariance;  ///< the same, once the last sweep has ended
+    std::vector<Vec3> irradiance;         ///< direct and all bounces so far
+    std::vector<std::uint8_t> reached;    ///< whether any ray has met the texel
     ConvergenceHistory convergence;
     Settling settling;
+    Refinement refinement;
     Sweep sweep;
     PartialRadiance radiance, gloss;  ///< of perfect and rough mirrors
+
+    /// Whether a bake that refines or not goes on from what is known of each texel's direct light.
+    bool needsDirectEstimates(bool refining) const {
+        return refining && stage > BakeStage::charts && stage < BakeStage::solved;
+    }
 };
 
 /// Calls visit(name, member) for all that has to be kept of a solution, so that whatever keeps it
@@ -87,8 +106,8 @@ template <class S, class Visit>
     requires std::is_same_v<std::remove_const_t<S>, BakeSolution>
 void visitSolution(S& solution, Visit&& visit) {
     // Names all members: one that is added has to be thought of here.
-    auto& [stage, report, direct, directIrradiance, irradiance, reached, convergence, settling,
-           sweep, radiance, gloss] = solution;
+    auto& [stage, report, direct, directIrradiance, directVariance, indirectVariance, irradiance,
+           reached, convergence, settling, refinement, sweep, radiance, gloss] = solution;
     visit("stage", stage);
     visit("exchanges", report.exchanges);
     visit("sweeps", report.sweeps);
@@ -98,6 +117,8 @@ void visitSolution(S& solution, Visit&& visit) {
     visit("direct.estimates", direct.estimates);
     visit("direct.before", direct.before);
     visit("direct", directIrradiance);
+    visit("direct.variance", directVariance);
+    visit("variance", indirectVariance);
     visit("irradiance", irradiance);
     visit("reached", reached);
     visit("history.charts", convergence.charts);
@@ -107,8 +128,10 @@ void visitSolution(S& solution, Visit&& visit) {
     visit("history.rate", convergence.rate);
     visit("settling.sweeps", settling.sweeps);
     visit("settling.sum", settling.sum);
+    visit("refinement", refinement);
+    visit("error", report.error);
     visit("sweep.next", sweep.nextLine);
-    if (!sweep.nextLine.empty()) {
+    if (sweep.isKept(stage, refinement)) {
         visit("sweep.exchanges", sweep.exchanges);
         for (std::size_t a = 0; a < kAccumulators; ++a) {
             visit("sweep.bent " + std::to_string(a), sweep.bent[a]);

@@ -10,6 +10,7 @@
 #include "vlf/unwrap/unwrap.h"
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace vlf {
@@ -27,8 +28,8 @@ inline constexpr std::size_t kDirectBlock = 64;
 struct DirectLight {
     std::vector<DirectEstimate> estimates;  ///< of unwrap.texels
     std::vector<DirectEstimate> before;  ///< those before the pass, which tell it where to refine
-    std::int32_t pass = 0;               ///< the first and kRefinementPasses more
-    LoopMarks done;                      ///< blocks of the pass
+    std::int32_t pass = 0;  ///< the first and kRefinementPasses more, and what refines them
+    LoopMarks done;         ///< blocks of the pass
 };
 
 /// Goes on until `light` is complete (true) or a pause is due (false). The estimates are unbiased
@@ -36,5 +37,12 @@ struct DirectLight {
 bool findDirectLight(const Scene& scene, const RayScene& rays, const Unwrap& unwrap,
                      const LightSources& sources, const DirectLightParams& params,
                      DirectLight& light, Progress& progress);
+
+/// One more pass over light that is complete, towards a square error of `target` (see
+/// DirectAllocation). Likewise true once it has ended, and to be gone on with.
+bool refineDirectLight(const Scene& scene, const RayScene& rays, const Unwrap& unwrap,
+                       const LightSources& sources, const DirectLightParams& params,
+                       std::span<const float> areas, double target, DirectLight& light,
+                       Progress& progress);
 
 }  // namespace vlf

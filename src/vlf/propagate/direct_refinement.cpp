@@ -1,5 +1,7 @@
 #include "vlf/propagate/direct_refinement.h"
 
+#include "vlf/propagate/texel_neighbours.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -15,8 +17,10 @@ namespace {
 constexpr float kTarget = 0.065f, kRefineAbove = 0.004f;
 constexpr int kRefinement = 6;
 constexpr std::array<int, kRefinementPasses> kMaxRefinement{48, 1024};
-constexpr float kWorthwhile = 0.25f;  // fewer more samples than this share do not matter
-constexpr float kBright = 8;          // times the mean
+constexpr float kWorthwhile = 0.25f;   // fewer more samples than this share do not matter
+constexpr float kFewestAdded = 0.02f;  // likewise, of an allocation
+constexpr float kMostGrowth = 16;      // of a texel's samples in one pass of an allocation
+constexpr float kBright = 8;           // times the mean
 constexpr float kRoomShare = 0.3f;
 constexpr float kShadowEdge = 0.25f;  // relative step between neighbours that counts as an edge
 
@@ -82,6 +86,45 @@ float DirectRefinement::wanted(std::size_t i, float luminance) const {
     if (!(error >= kRefineAbove)) return 0;
     const float target = target_ / std::sqrt(std::max(1.0f, light / (kBright * mean_)));
     return static_cast<float>(e.samples) * error * error / (target * target);
+}
+
+DirectAllocation::DirectAllocation(const Unwrap& unwrap, std::span<const float> areas,
+                                   const std::vector<DirectEstimate>& estimates, double target)
+    : estimates_(estimates), wanted_(estimates.size(), 0) {
+    const TexelNeighbours neighbours(unwrap);
+    // Of a sample, with the texels beside: few samples do not tell their own spread.
+    const auto spread = [&](std::size_t i) {
+        float sum = 0, count = 0;
+        for (int dy = -1; dy <= 1; ++dy)
+            for (int dx = -1; dx <= 1; ++dx)
+                if (const std::uint32_t n = neighbours.beside(i, dx, dy);
+                    n != TexelNeighbours::kNone) {
+                    sum += estimates[n].squareError() * static_cast<float>(estimates[n].samples);
+                    count += 1;
+                }
+        return std::sqrt(sum / count);
+    };
+    double sum = 0;
+    for (std::size_t i = 0; i < wanted_.size(); ++i) {
+        if (areas[i] <= 0) continue;
+        wanted_[i] = spread(i) * std::sqrt(areas[i]);
+        sum += wanted_[i];
+    }
+    const auto scale = static_cast<float>(sum / target);
+    for (float& wanted : wanted_) wanted *= scale;
+}
+
+int DirectAllocation::samplesToAdd(std::size_t i) const {
+    const auto own = static_cast<float>(estimates_[i].samples);
+    const float missing = std::min(wanted_[i], kMostGrowth * own) - own;
+    return missing > kFewestAdded * own ? static_cast<int>(std::ceil(missing)) : 0;
+}
+
+std::uint64_t DirectAllocation::total() const {
+    std::uint64_t sum = 0;
+    for (std::size_t i = 0; i < wanted_.size(); ++i)
+        sum += static_cast<std::uint64_t>(samplesToAdd(i));
+    return sum;
 }
 
 }  // namespace vlf

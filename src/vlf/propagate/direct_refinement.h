@@ -4,7 +4,10 @@
 
 #include "vlf/unwrap/unwrap.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace vlf {
@@ -12,13 +15,22 @@ namespace vlf {
 /// An estimate of irradiance, W·m⁻².
 struct DirectEstimate {
     Vec3 value{0};
-    float variance = 0;    ///< of the luminance
-    float unoccluded = 0;  ///< about the luminance if nothing stood in the way
+    float variance = 0;      ///< of the luminance, if samples were independent
+    float evenVariance = 0;  ///< the same as they are, spread evenly over receiver and light
+    float unoccluded = 0;    ///< about the luminance if nothing stood in the way
     int samples = 0;
+
+    /// The variance summed over the channels, which vary together.
+    float squareError() const {
+        const float light = luminance(value);
+        const float channels = light > 0 ? glm::dot(value, value) / (light * light) : 3.0f;
+        return channels * evenVariance;
+    }
 
     void add(const DirectEstimate& other, float scale) {
         value += scale * other.value;
         variance += scale * scale * other.variance;
+        evenVariance += scale * scale * other.evenVariance;
     }
 
     /// Takes an independent estimate of the same texel in.
@@ -27,9 +39,18 @@ struct DirectEstimate {
         const float own = static_cast<float>(samples) / all;
         value = own * value + (1 - own) * other.value;
         variance = own * own * variance + (1 - own) * (1 - own) * other.variance;
+        evenVariance = own * own * evenVariance + (1 - own) * (1 - own) * other.evenVariance;
         samples += other.samples;
     }
 };
+
+/// An estimate by n samples that are spread evenly, of the variance if they were independent. The
+/// edge of a shadow among such samples leaves an error that falls with n^(-3/2).
+inline DirectEstimate evenEstimate(const Vec3& value, float variance, int n) {
+    constexpr float kEven = 6.5f;  // measured
+    const float share = std::min(1.0f, kEven / std::sqrt(static_cast<float>(n)));
+    return {.value = value, .variance = variance, .evenVariance = share * variance};
+}
 
 /// Passes over the texels that follow the first.
 inline constexpr int kRefinementPasses = 2;
@@ -53,6 +74,24 @@ class DirectRefinement {
     float target_;                        // relative standard error of a texel like the mean
     std::vector<std::uint32_t> entryOf_;  // per atlas texel
     float mean_ = 0;                      // luminance over all texels
+};
+
+/// Samples that bring the square error of the whole down to a target with the fewest of them: to
+/// each texel in proportion to the spread of a sample there (J. Neyman 1934).
+class DirectAllocation {
+  public:
+    /// `areas` of unwrap.texels, 0 where light does not count; `target`: Σ area · squareError().
+    /// The estimates must outlive it.
+    DirectAllocation(const Unwrap& unwrap, std::span<const float> areas,
+                     const std::vector<DirectEstimate>& estimates, double target);
+
+    int samplesToAdd(std::size_t i) const;
+    /// Over all texels.
+    std::uint64_t total() const;
+
+  private:
+    const std::vector<DirectEstimate>& estimates_;
+    std::vector<float> wanted_;
 };
 
 }  // namespace vlf

@@ -18,6 +18,8 @@ constexpr float kAgreement = 0.1f;  // relative spread of form factors over a te
 constexpr std::array<std::size_t, kTexelGrid> kLatinSquare{1, 3, 0, 2};  // column taken in each row
 constexpr float kMinSamples = 3;
 constexpr float kLittle = 0.01f;     // share of the likely effect of all lights
+constexpr std::size_t kCrowd = 64;   // lights; of more, those share samples that have less than
+constexpr float kApart = 1.0f / 16;  // this share of the effect
 constexpr float kGrazing = 1e-5f;    // cosine: a point in a light's own plane gets nothing from it
 constexpr float kSlack = 0.01f;      // texels
 constexpr float kNearField = 0.25f;  // distance, in sides of a square of a light's area
@@ -107,17 +109,57 @@ DirectEstimate LightGatherer::estimateAll(const LightReceiver& receiver, int sam
     DirectEstimate total{.unoccluded = sum, .samples = samples};
     if (sum <= 0) return total;
     RandomStream random(seed_ + pass, receiver.key);
+    const auto wanted = [&](float effect) {
+        const float share = effect / sum;
+        return std::max(static_cast<float>(samples) * share,
+                        std::min(kMinSamples, kMinSamples * share / kLittle));
+    };
+    // Lights of some effect get a few samples whatever the others: those may be hidden. Where there
+    // are many, all but the strongest share theirs.
+    const bool crowd = sources_.lights.size() > kCrowd;
+    float rest = 0;
     for (std::size_t i = 0; i < effects_.size(); ++i) {
         if (effects_[i] <= 0) continue;
-        // Lights of some effect get a few samples whatever the others: those may be hidden.
-        // One of little effect is picked with a probability below one.
-        const float share = effects_[i] / sum;
-        const float wanted = std::max(static_cast<float>(samples) * share,
-                                      std::min(kMinSamples, kMinSamples * share / kLittle));
-        if (wanted < 1 && random.next() >= wanted) continue;
-        const int n = std::max(1, static_cast<int>(std::ceil(wanted)));
-        total.add(gather(receiver, sources_.images[i], n, random), std::max(1.0f, 1 / wanted));
+        if (crowd && effects_[i] < kApart * sum) {
+            rest += effects_[i];
+            continue;
+        }
+        // Of little effect, one is picked with a probability below one.
+        const float n = wanted(effects_[i]);
+        effects_[i] = 0;
+        if (n < 1 && random.next() >= n) continue;
+        total.add(gather(receiver, sources_.images[i], std::max(1, static_cast<int>(std::ceil(n))),
+                         random),
+                  std::max(1.0f, 1 / n));
     }
+    if (rest > 0)
+        total.add(gatherTogether(receiver, rest, static_cast<int>(std::ceil(wanted(rest))), random),
+                  1);
+    return total;
+}
+
+/// Irradiance from the images of which effects_ (of this sum) is not 0 by n samples in all: an
+/// image is drawn in proportion to its effect, evenly spaced in their order.
+DirectEstimate LightGatherer::gatherTogether(const LightReceiver& r, float effect, int n,
+                                             RandomStream& random) {
+    const float step = effect / static_cast<float>(n);
+    float next = random.next() * step, sum = 0, squares = 0;
+    DirectEstimate total;
+    for (std::size_t i = 0; i < effects_.size(); ++i) {
+        sum += effects_[i];
+        int drawn = 0;
+        for (; next < sum; next += step) ++drawn;
+        if (drawn == 0) continue;
+        const auto weight = static_cast<float>(drawn) / static_cast<float>(n);
+        const Vec3 value = gather(r, sources_.images[i], drawn, random).value;
+        const Vec3 mean = effect / effects_[i] * value;
+        total.value += weight * mean;
+        squares += weight * luminance(mean) * luminance(mean);
+    }
+    const float light = luminance(total.value);
+    total.variance =
+        n > 1 ? std::max(0.0f, squares - light * light) / static_cast<float>(n - 1) : light * light;
+    total.evenVariance = total.variance;
     return total;
 }
 
@@ -199,7 +241,7 @@ DirectEstimate LightGatherer::meanOfSamples(int n) const {
     }
     const Vec3 mean = sum / count;
     const float spread = squares / count - luminance(mean) * luminance(mean);
-    return {mean, std::max(0.0f, spread) / count};
+    return evenEstimate(mean, std::max(0.0f, spread) / count, n);
 }
 
 /// The unoccluded part of a plain light is known exactly: only the share of it that is visible
@@ -221,12 +263,12 @@ DirectEstimate LightGatherer::gatherByFormFactor(const LightReceiver& r, const L
     if (geometry <= 0) {
         if (counts_ == Counts::blockedByExtra) return {};
         const Vec3 value = 0.5f * unoccluded * image.throughput;
-        return {value, luminance(value) * luminance(value)};
+        return evenEstimate(value, luminance(value) * luminance(value), 1);
     }
     const Vec3 value = unoccluded * (throughput / geometry);
     const float share = visible / geometry;
     const float whole = luminance(value) / std::max(share, 0.5f / count);
-    return {value, whole * whole * share * (1 - share) / count};
+    return evenEstimate(value, whole * whole * share * (1 - share) / count, n);
 }
 
 /// Within this distance of the receiver a light is sampled by directions instead of points,

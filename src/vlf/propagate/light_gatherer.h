@@ -68,6 +68,8 @@ class LightGatherer {
     enum class Counts { seen, blockedByExtra };
 
     DirectEstimate estimateAll(const LightReceiver& r, int samples, std::uint64_t pass);
+    DirectEstimate gatherTogether(const LightReceiver& r, float effect, int n,
+                                  RandomStream& random);
     float likelyEffect(const LightReceiver& r, const LightImage& image) const;
     bool mayBeSeenInMirror(const LightReceiver& r, const LightImage& image) const;
     Point surfacePoint(const LightReceiver& r, std::size_t i) const;

@@ -17,6 +17,7 @@ namespace {
 // and its share of the coded file; per ray of a bundle the layers that it meets.
 constexpr double kBase = 12e6, kPerTriangle = 255, kPerTexel = 400, kPerElement = 6.5,
                  kPerRay = 140;
+constexpr double kPerTexelRefined = 160;   // accumulators that are kept as they are
 constexpr double kAtlasOverhead = 1.6;     // gutters, gaps, texels cut by edges
 constexpr double kRadianceOverhead = 1.4;  // whole tiles, guard band; measured for m = 8
 
@@ -24,11 +25,12 @@ constexpr double kRadianceOverhead = 1.4;  // whole tiles, guard band; measured 
 struct BakeSize {
     double triangles, textureBytes, texels, radianceElements;
     int cells;
+    bool refined;
 };
 
 MemoryNeed needOf(const BakeSize& size) {
-    const double transport =
-        kBase + size.textureBytes + kPerTriangle * size.triangles + kPerTexel * size.texels;
+    const double transport = kBase + size.textureBytes + kPerTriangle * size.triangles +
+                             (kPerTexel + (size.refined ? kPerTexelRefined : 0)) * size.texels;
     return {static_cast<std::uint64_t>(transport),
             static_cast<std::uint64_t>(kPerElement * size.radianceElements)};
 }
@@ -81,14 +83,18 @@ void require(const MemoryNeed& need, const BakeParams& params, float texelSize,
 
 }  // namespace
 
+MirrorElements predictElements(const Scene& scene, const BakeParams& params) {
+    return {elements(scene, MirrorKind::perfect, params.radianceDirections, params.radianceCells),
+            elements(scene, MirrorKind::rough, params.glossDirections, params.glossCells)};
+}
+
 MemoryNeed predictMemory(const Scene& scene, const BakeParams& params) {
     const double texels =
         params.texelSize > 0 ? texelsNeeded(scene, params.texelSize) : params.texelBudget;
-    return needOf(
-        {static_cast<double>(scene.triangles.size()), textureBytes(scene), kAtlasOverhead * texels,
-         elements(scene, MirrorKind::perfect, params.radianceDirections, params.radianceCells) +
-             elements(scene, MirrorKind::rough, params.glossDirections, params.glossCells),
-         params.cells});
+    const MirrorElements elements = predictElements(scene, params);
+    return needOf({static_cast<double>(scene.triangles.size()), textureBytes(scene),
+                   kAtlasOverhead * texels, elements.perfect + elements.rough, params.cells,
+                   refines(params)});
 }
 
 MemoryNeed predictMemory(const BakeState& state) {
@@ -97,7 +103,8 @@ MemoryNeed predictMemory(const BakeState& state) {
     for (const RadianceParams& params : radianceParams(state.params))
         elements += estimateElements(state.scene, field, params);
     return needOf({static_cast<double>(state.scene.triangles.size()), textureBytes(state.scene),
-                   static_cast<double>(state.unwrap.atlasSize()), elements, state.params.cells});
+                   static_cast<double>(state.unwrap.atlasSize()), elements, state.params.cells,
+                   refines(state.params)});
 }
 
 void requireMemory(const Scene& scene, const BakeParams& params, std::uint64_t bytes) {

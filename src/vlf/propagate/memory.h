@@ -14,6 +14,12 @@ struct MemoryNeed {
     std::uint64_t total() const { return transport + radiance; }
 };
 
+/// Elements of the radiance fields, about.
+struct MirrorElements {
+    double perfect = 0, rough = 0;
+};
+MirrorElements predictElements(const Scene& scene, const BakeParams& params);
+
 /// Predicted peak of a bake before it starts, from areas and counts alone. Mirrors of many small
 /// charts take more.
 MemoryNeed predictMemory(const Scene& scene, const BakeParams& params);

@@ -18,16 +18,19 @@
 #include "vlf/math/sampling.h"
 #include "vlf/propagate/bake.h"
 #include "vlf/propagate/convergence.h"
+#include "vlf/propagate/indirect_noise.h"
 #include "vlf/propagate/ray_gather.h"
 #include "vlf/propagate/smooth_indirect.h"
 
 #include <algorithm>
+#include <array>
 
 namespace vlf {
 
 namespace {
 
-constexpr int kMinSamples = 64;
+constexpr int kMinSamples = 64;              // of a texel after a fine sweep
+constexpr double kLinesOfMinSamples = 2049;  // of several: in proportion to their lines
 
 bool isBlack(const Material& material) {
     return maxComponent(material.diffuse) <= 0;
@@ -57,12 +60,17 @@ std::size_t linesSwept(const Sweep& sweep) {
     return sum;
 }
 
-void beginSweep(BakeState& state) {
+/// `onTop`: of what the accumulators hold.
+void beginSweep(BakeState& state, bool onTop) {
     Sweep& s = state.sweep;
     s.nextLine.resize(kAccumulators);
     parallelFor(kAccumulators, [&](std::size_t a) {
         s.nextLine[a] = static_cast<std::uint32_t>(a);
         s.exchanges[a] = 0;
+        if (onTop) {  // bent texels have theirs in sums of their own
+            for (const BentTexel& bent : state.bentTexels) s.parts[a].set(bent.texel, Vec3(0), 0);
+            return;
+        }
         s.bent[a].assign(state.bentTexels.size(), {});
         s.parts[a].reset(state.unwrap.atlasSize());
     });
@@ -111,7 +119,7 @@ bool sweepBundles(BakeState& state, const DirectionSet& directions, int cells, i
 
 /// Texels that fewer rays of the bundles met, small ones and those at the ends of charts, gather
 /// the rest by rays of their own. Whether all have; else a pause is due.
-bool topUp(BakeState& state, const TexelBuffer& radiance, Progress& progress) {
+bool topUp(BakeState& state, int samples, const TexelBuffer& radiance, Progress& progress) {
     TexelBuffer& gathered = state.sweep.gathered;
     LoopMarks& done = state.sweep.toppedUp;
     const std::vector<std::uint32_t>& texels = state.unwrap.texels;
@@ -121,7 +129,7 @@ bool topUp(BakeState& state, const TexelBuffer& radiance, Progress& progress) {
         RayGatherer gatherer(state.scene, state.rays, state.unwrap, state.sources);
         const std::size_t end = std::min(texels.size(), (block + 1) * kTopUpBlock);
         for (std::size_t i = block * kTopUpBlock; i < end; ++i) {
-            const int missing = kMinSamples - static_cast<int>(gathered.weight(texels[i]));
+            const int missing = samples - static_cast<int>(gathered.weight(texels[i]));
             if (missing <= 0) continue;
             RandomStream random(mixBits(state.params.seed), texels[i]);
             gatherer.gatherFromTexel(i, missing, random, radiance, gathered);
@@ -140,24 +148,64 @@ void deposit(BakeState& state, const TexelBuffer& gathered) {
     }
 }
 
+/// Of the sweep that has ended, see evennessOf.
+float evenness(const BakeState& state, int lines, bool turned) {
+    double exchanges = 0;
+    for (const std::uint64_t n : state.sweep.exchanges) exchanges += static_cast<double>(n);
+    const auto texels = static_cast<double>(state.unwrap.texels.size());
+    return evennessOf(lines, 2 * exchanges / (texels * lines), turned);
+}
+
+/// Takes what was gathered.
+void endSweep(BakeState& state) {
+    Sweep& s = state.sweep;
+    deposit(state, s.gathered);
+    for (const std::uint64_t n : s.exchanges) state.report.exchanges += n;
+    ++state.report.sweeps;
+    s.nextLine.clear();
+    s.gathered = {};
+    s.toppedUp.clear();
+}
+
 }  // namespace
 
 void propagateOnce(BakeState& state, int directions, int cells, int rotation, Progress& progress,
                    const BakeObserver& observe) {
-    if (state.sweep.nextLine.empty()) beginSweep(state);
+    if (state.sweep.nextLine.empty()) beginSweep(state, false);
     const TexelBuffer radiance = emit(state);
     while (!sweepBundles(state, DirectionSet(directions), cells, rotation, radiance, progress))
         observe(state);
     Sweep& s = state.sweep;
     if (s.gathered.empty()) s.gathered = sumInOrder(s.parts);
     if (rotation < 0) {
-        while (!topUp(state, radiance, progress)) observe(state);
+        while (!topUp(state, kMinSamples, radiance, progress)) observe(state);
         smoothIndirect(state.unwrap, s.parts, s.gathered);
+        state.indirectVariance =
+            indirectVariance(state.unwrap, s.parts, s.gathered, evenness(state, directions, false));
     }
-    deposit(state, s.gathered);
-    for (const std::uint64_t n : s.exchanges) state.report.exchanges += n;
-    ++state.report.sweeps;
-    s.nextLine.clear();
+    endSweep(state);
+}
+
+void refineOnce(BakeState& state, int directions, Progress& progress, const BakeObserver& observe) {
+    Sweep& s = state.sweep;
+    Refinement& r = state.refinement;
+    if (s.nextLine.empty()) beginSweep(state, r.sweptLines > 0);
+    const TexelBuffer radiance = emit(state);
+    while (!sweepBundles(state, DirectionSet(directions), state.params.cells, state.report.sweeps,
+                         radiance, progress))
+        observe(state);
+    if (s.gathered.empty()) s.gathered = sumInOrder(s.parts);
+    const auto lines = static_cast<double>(directions), before = static_cast<double>(r.sweptLines);
+    const double samples = kMinSamples * std::max(1.0, (before + lines) / kLinesOfMinSamples);
+    while (!topUp(state, static_cast<int>(samples), radiance, progress)) observe(state);
+    std::array<TexelBuffer, kAccumulators> smoothed = s.parts;  // those are added to later
+    smoothIndirect(state.unwrap, smoothed, s.gathered);
+    r.evenness =
+        (before * r.evenness + lines * evenness(state, directions, true)) / (before + lines);
+    state.indirectVariance =
+        indirectVariance(state.unwrap, smoothed, s.gathered, static_cast<float>(r.evenness));
+    endSweep(state);
+    r.sweptLines += static_cast<std::uint64_t>(directions);
 }
 
 namespace {
@@ -211,8 +259,12 @@ void propagate(BakeState& state, Progress& progress, const BakeObserver& observe
     const BakeParams& p = state.params;
     if (state.stage < BakeStage::settled) bringToRest(state, progress, observe);
     if (state.stage == BakeStage::solved) return;
-    propagateOnce(state, p.directions, p.cells, -1, progress, observe);
+    if (refines(p))
+        refine(state, progress, observe);
+    else
+        propagateOnce(state, p.directions, p.cells, -1, progress, observe);
     state.sweep = {};
+    state.direct = {};
     state.stage = BakeStage::solved;
     observe(state);
 }

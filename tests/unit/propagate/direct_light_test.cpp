@@ -156,6 +156,37 @@ TEST(DirectLight, OfTwoLampsAddsUp) {
               5e-3);
 }
 
+TEST(DirectLight, OfManyLampsIsTheirSumWithoutARayForEach) {
+    // The ceiling lamp in 20 x 20 pieces, of which half a dozen rays meet as many.
+    SceneBuilder b;
+    b.quad(Vec3(0), {0, 0, 4}, {4, 0, 0}, b.material("floor", Vec3(0.5f)));
+    constexpr int kSide = 20;
+    for (int i = 0; i < kSide; ++i)
+        for (int j = 0; j < kSide; ++j) {
+            Lamp piece = kCeilingLamp;
+            piece.u /= 2.0f * kSide;
+            piece.v /= 2.0f * kSide;
+            piece.origin += 2.0f * static_cast<float>(i) * piece.u;
+            piece.origin += 2.0f * static_cast<float>(j) * piece.v;
+            addLamp(b, piece);
+        }
+    Lamp quarter = kCeilingLamp;
+    quarter.radiance /= 4;
+    const auto expected = [&](const Vec3& p) { return irradianceFrom(quarter, p, kUp); };
+    const Lit lit(b.scene(), 0.2f, 6);
+    EXPECT_LT(lit.largestError(expected), 0.1);
+    double sum = 0, truth = 0;
+    for (std::size_t i = 0; i < lit.unwrap.texels.size(); ++i) {
+        if (lit.unwrap.texelChart[i] != lit.unwrap.triangleCharts[0].front) continue;
+        sum += lit.irradiance[i].x;
+        const auto points = lit.unwrap.points.of(i);
+        for (const SurfacePoint& p : points)
+            truth += expected(positionAt(lit.scene, p.triangle, p.barycentric)) /
+                     static_cast<double>(points.size());
+    }
+    EXPECT_NEAR(sum / truth, 1, 0.01);
+}
+
 TEST(DirectLight, OfATexturedLampIsSteadyHoweverClose) {
     // The lamp is a square of 4 m over one of 2 m: within 1 m, part of it is near.
     for (const float height : {0.01f, 0.7f, 1.5f}) {

@@ -204,6 +204,32 @@ TEST_F(Resume, FromEveryKindOfPauseTheFieldIsTheSame) {
     }
 }
 
+TEST_F(Resume, ARefinementGoesOnToTheSameBits) {
+    BakeParams refining = refiningParams(params(), 0);
+    refining.directions = 129;
+    refining.refinements = 5;
+    whole = bake(scene, refining, none);
+    PausingProgress progress(11);
+    std::map<std::string, BakeSolution> kept;
+    bake(scene, refining, progress, nullptr, [&](const BakeState& s) {
+        if (s.stage != BakeStage::settled) return;
+        std::string kind = std::to_string(static_cast<int>(s.refinement.step));
+        if (s.refinement.steps > 0) kind += " later";
+        if (countDone(s.direct.done) > 0) kind += " within";
+        if (!s.sweep.nextLine.empty()) kind += " sweeping";
+        if (countDone(s.sweep.toppedUp) > 0) kind += " topping up";
+        kept[kind] = s;
+    });
+    for (const char* kind : {"0", "0 later", "1 sweeping", "1 later sweeping",
+                             "1 later sweeping topping up", "2 later within"})
+        EXPECT_TRUE(kept.contains(kind)) << kind;
+    for (const auto& [kind, solution] : kept) {
+        SCOPED_TRACE(kind);
+        expectSame(whole,
+                   bake(scene, refining, none, nullptr, unobserved, throughMemory(solution)));
+    }
+}
+
 TEST_F(Resume, FromWhereverItWasCancelledTheFieldIsTheSame) {
     int cancelled = 0;
     for (int updates = 1;; updates = updates * 3 / 2 + 1) {
