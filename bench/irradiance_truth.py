@@ -12,29 +12,34 @@ import tempfile
 from program import info, report_of, run
 
 
-def _measure(vlf, scene, field, texels, spp, report):
+def _measure(vlf, scene, field, texels, spp, report, options):
     run(vlf, "-q", "reference", scene, "--irradiance", field, "--texels", texels, "--spp", spp,
-        "-o", report)
+        "-o", report, *options)
     return report_of(report)
 
 
 class IrradianceTruth:
-    """The truth of some texels of a scene at so many samples, from `cache` if it is there."""
+    """The truth of some texels of a scene at so many samples, from `cache` if it is there.
 
-    def __init__(self, vlf, cache, texels, spp):
+    `options` are those of `vlf reference` that say what of the texels is measured.
+    """
+
+    def __init__(self, vlf, cache, texels, spp, *options):
         self.vlf, self.cache, self.texels, self.spp = vlf, cache, texels, spp
+        self.options = options
         cache.mkdir(parents=True, exist_ok=True)
 
     def of(self, scene, field):
         """The report of `vlf reference --irradiance` with the errors of `field`."""
         with tempfile.TemporaryDirectory() as folder:
-            baked = _measure(self.vlf, scene, field, self.texels, 1, f"{folder}/baked.json")
+            baked = _measure(self.vlf, scene, field, self.texels, 1, f"{folder}/baked.json",
+                             self.options)
         places = [(t["position"], t["normal"]) for t in baked["texels"]]
         scene_hash = info(self.vlf, field)["bake"]["sceneHash"]
-        key = hashlib.sha256(json.dumps([scene_hash, places]).encode()).hexdigest()
+        key = hashlib.sha256(json.dumps([scene_hash, places, *self.options]).encode()).hexdigest()
         path = self.cache / f"{scene.stem}-{self.spp}-{key[:16]}.json"
         if not path.exists():
-            _measure(self.vlf, scene, field, self.texels, self.spp, path)
+            _measure(self.vlf, scene, field, self.texels, self.spp, path, self.options)
         return _with_errors(report_of(path), baked["texels"])
 
 
