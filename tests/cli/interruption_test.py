@@ -164,7 +164,7 @@ class Refusal(Bakes):
         for option, was, now in [("--cells", "256", "128"), ("--texel", "0.1", "0.2"),
                                  ("--preset", "draft", "high"), ("--bounces", "auto", "3"),
                                  ("--directions", "513", "2049"), ("--direct-samples", "8", "4"),
-                                 ("--radiance-directions", "2049", "0"), ("--tile", "8", "16"),
+                                 ("--radiance-directions", "2049", "0"), ("--tile", "4", "16"),
                                  ("--radiance-cells", "128", "64"), ("--seed", "0", "5")]:
             self.refused(**{option[2:]: now}, says=[f"{option} was {was}, is {now}"])
         self.assertEqual((self.folder / CHECKPOINT).read_bytes(), self.kept)

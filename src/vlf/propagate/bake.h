@@ -41,7 +41,7 @@ struct BakeParams {
     int glossDirections = 513;  ///< of that of rough mirror charts; 0: none
     int glossCells = 128;
     GlossSamples gloss{};
-    int tileSize = 8;  ///< m, a power of two
+    int tileSize = 4;  ///< m, a power of two
     // Refinement: fine sweeps and samples of direct light are added until one of these is met.
     double error = 0;     ///< estimated error of the texels, relative; 0: none
     double seconds = 0;   ///< in all, as far as can be foretold; 0: none

@@ -19,7 +19,7 @@ constexpr double kBase = 12e6, kPerTriangle = 255, kPerTexel = 400, kPerElement 
                  kPerRay = 140;
 constexpr double kPerTexelRefined = 160;   // accumulators that are kept as they are
 constexpr double kAtlasOverhead = 1.6;     // gutters, gaps, texels cut by edges
-constexpr double kRadianceOverhead = 1.4;  // whole tiles, guard band; measured for m = 8
+constexpr double kRadianceOverhead = 1.25;  // whole tiles, guard band; measured for m = 4
 
 /// What memory grows with.
 struct BakeSize {

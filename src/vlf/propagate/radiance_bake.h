@@ -15,7 +15,7 @@ namespace vlf {
 struct RadianceParams {
     int lines = 2049;                       ///< of the direction set: 2·4ⁿ + 1
     int cells = 256;                        ///< N
-    int tileSize = 8;                       ///< m, a power of two
+    int tileSize = 4;                       ///< m, a power of two
     MirrorKind kind = MirrorKind::perfect;  ///< of which mirrors
     GlossSamples gloss{};
 };
