@@ -14,8 +14,15 @@ namespace vlf {
 void parallelFor(std::size_t count, std::size_t grain,
                  const std::function<void(std::size_t)>& body);
 
+/// The same without the memory that a std::function takes to hold a body.
+template <class Body>
+void parallelFor(std::size_t count, std::size_t grain, const Body& body) {
+    parallelFor(count, grain, std::function<void(std::size_t)>(std::cref(body)));
+}
+
 /// parallelFor with a grain of 1, for bodies that are long.
-inline void parallelFor(std::size_t count, const std::function<void(std::size_t)>& body) {
+template <class Body>
+void parallelFor(std::size_t count, const Body& body) {
     parallelFor(count, 1, body);
 }
 

@@ -21,9 +21,9 @@ bool touchesAny(const Sphere& sphere, std::span<const Sphere> objects) {
 }
 
 /// Entries of which a part may lie in or under one of the objects, in ascending order.
-std::vector<std::uint32_t> entriesNear(const Scene& scene, const RoomTexels& room,
-                                       std::span<const Sphere> objects) {
-    std::vector<std::uint32_t> entries;
+void findEntriesNear(const Scene& scene, const RoomTexels& room, std::span<const Sphere> objects,
+                     std::vector<std::uint32_t>& entries) {
+    entries.clear();
     for (const TexelGroup& group : room.groups) {
         if (!touchesAny(group.bounds, objects)) continue;
         for (std::uint32_t g = group.first; g < group.first + group.count; ++g) {
@@ -33,7 +33,6 @@ std::vector<std::uint32_t> entriesNear(const Scene& scene, const RoomTexels& roo
         }
     }
     std::sort(entries.begin(), entries.end());
-    return entries;
 }
 
 /// Whether an object lies on a point or around it: the first surface met on the way out is at once
@@ -57,7 +56,8 @@ void Coverage::find(const Scene& scene, const RayScene& roomRays, const RoomTexe
                     std::span<const Sphere> objects) {
     for (const std::uint32_t i : entries_) uncovered_[room.unwrap.texels[i]] = 1;
     entries_.clear(), points_.clear(), first_.assign(1, 0);
-    for (const std::uint32_t i : entriesNear(scene, room, objects)) {
+    findEntriesNear(scene, room, objects, near_);
+    for (const std::uint32_t i : near_) {
         const LightReceiver texel = texelReceiver(scene, room.unwrap, i);
         const float gap = std::max(kContact * texel.radius, 4 * roomRays.epsilon());
         const std::size_t before = points_.size();

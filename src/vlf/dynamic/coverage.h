@@ -42,6 +42,7 @@ class Coverage {
   private:
     std::vector<float> uncovered_;
     std::vector<std::uint32_t> entries_;
+    std::vector<std::uint32_t> near_;   ///< entries that may be
     std::vector<std::uint32_t> first_;  ///< of entries_[k] in points_
     std::vector<SurfacePoint> points_;
 };

@@ -18,16 +18,20 @@ constexpr float kSameWay = 1e-4f;  // of mirrors that face alike: 1 less the cos
 /// An object that seems smaller than this from another (radius by distance) does not matter to it.
 constexpr float kNoticed = 0.02f;
 
-void require(bool ok, const DynamicObject& object, const std::string& what) {
+void require(bool ok, const DynamicObject& object, const char* what) {
     if (!ok) throw InputError("the object '" + object.name + "' " + what);
+}
+
+void checkPose(const DynamicObject& object, const Pose& pose) {
+    require(isValid(pose), object,
+            "has a pose that is none: it takes finite numbers, a scale above zero and a rotation "
+            "of length one");
 }
 
 void check(const DynamicObject& object) {
     const ObjectSettings& s = object.settings;
     require(object.model != nullptr, object, "has no model");
-    require(isValid(object.pose), object,
-            "has a pose that is none: it takes finite numbers, a scale above zero and a rotation "
-            "of length one");
+    checkPose(object, object.pose);
     require(s.directSamples >= 1 && s.directSamples <= 1024, object,
             "needs from 1 to 1024 samples of direct light");
     require(s.gather.subdivision >= 0 && s.gather.subdivision <= ObjectModel::kMaxSubdivision,
@@ -82,6 +86,12 @@ struct DynamicRoom::Impl {
         Sphere sphere;      ///< around it in the update before
     };
 
+    /// Where an object was or is that has changed.
+    struct Disturbance {
+        const Entry* by;
+        Sphere sphere;
+    };
+
     Impl(const Scene& s, const RayScene& rays, const LightField& f)
         : scene(s), field(f), exchange(s, rays, f), mirrors(mirrorsOf(s, f, exchange.texels())) {}
 
@@ -111,11 +121,7 @@ struct DynamicRoom::Impl {
 
     /// Which objects have changed, or have one near by that has.
     void findStale() {
-        struct Disturbance {
-            const Entry* by;
-            Sphere sphere;
-        };
-        std::vector<Disturbance> disturbances;
+        disturbances.clear();
         for (Entry& entry : entries) {
             if (!entry.changed) continue;
             disturbances.push_back({&entry, entry.sphere});
@@ -140,10 +146,9 @@ struct DynamicRoom::Impl {
 
     void update() {
         prepare();
-        viewers = withImages(eyes);
+        findViewers();
         findStale();
-        std::vector<Body> bodies;
-        numbers.clear();
+        bodies.clear(), numbers.clear();
         for (std::size_t i = 0; i < entries.size(); ++i) {
             Entry& entry = entries[i];
             if (!entry.object.visible) continue;
@@ -163,21 +168,21 @@ struct DynamicRoom::Impl {
         return entries[i];
     }
 
-    /// The eyes and their images in the room's mirrors; none, which means from anywhere, where
-    /// mirrors show all sides.
-    std::vector<Vec3> withImages(std::span<const Vec3> from) const {
+    /// Viewers are the eyes and their images in the room's mirrors; none, which means from
+    /// anywhere, where mirrors show all sides.
+    void findViewers() {
+        viewers.clear();
         const bool mirrorObject =
             std::any_of(entries.begin(), entries.end(), [](const Entry& entry) {
                 return entry.object.visible && entry.object.model->mirrors();
             });
-        if (!mirrors.simple || mirrorObject) return {};
-        std::vector<Vec3> all(from.begin(), from.end());
+        if (!mirrors.simple || mirrorObject) return;
+        viewers = eyes;
         for (const FlatMirror& mirror : mirrors.planes)
-            for (const Vec3& eye : from) {
+            for (const Vec3& eye : eyes) {
                 const float height = glm::dot(mirror.normal, eye) - mirror.offset;
-                if (height > 0) all.push_back(eye - 2 * height * mirror.normal);
+                if (height > 0) viewers.push_back(eye - 2 * height * mirror.normal);
             }
-        return all;
     }
 
     const Scene& scene;
@@ -186,6 +191,8 @@ struct DynamicRoom::Impl {
     LightExchange exchange;
     RoomMirrors mirrors;
     std::vector<Entry> entries;
+    std::vector<Disturbance> disturbances;
+    std::vector<Body> bodies;
     std::vector<std::size_t> numbers;
     std::vector<Vec3> eyes, viewers;  ///< without their images and with them
     std::uint32_t lightsMade = 0;     ///< of objects, ever
@@ -222,9 +229,7 @@ void DynamicRoom::remove(std::size_t i) {
 void DynamicRoom::setPose(std::size_t i, const Pose& pose) {
     const DynamicObject& object = impl_->entries[i].object;
     if (object.pose == pose) return;
-    DynamicObject moved = object;
-    moved.pose = pose;
-    check(moved);
+    checkPose(object, pose);
     Impl::Entry& entry = impl_->change(i);
     // What is made for an object depends on its scale.
     entry.unprepared = entry.unprepared || pose.scale != entry.object.pose.scale;
@@ -259,7 +264,7 @@ void DynamicRoom::setVisible(std::size_t i, bool visible) {
 
 void DynamicRoom::setViewers(std::span<const Vec3> eyes) {
     impl_->eyes.assign(eyes.begin(), eyes.end());
-    impl_->viewers = impl_->withImages(eyes);
+    impl_->findViewers();
     impl_->changed =
         impl_->changed ||
         std::any_of(impl_->entries.begin(), impl_->entries.end(), [&](const Impl::Entry& entry) {

@@ -142,8 +142,8 @@ void LightExchange::findShadows() {
     for (const Body& body : bodies_)
         samples = std::max(samples, body.object->settings.directSamples);
     if (!casters_.empty()) {
-        const TexelLoss loss =
-            findSoftShadows(scene_, roomRays_, texels_, coverage_, casterInstances_, casterSpheres_,
+        const TexelLoss& loss =
+            softShadows_.find(scene_, roomRays_, texels_, coverage_, casterInstances_, casterSpheres_,
                             kShadowSamples * samples, kSlightShadow * luminance(meanIrradiance_));
         for (std::size_t i = 0; i < loss.entries.size(); ++i)
             if (loss.loss[i] != Vec3(0))

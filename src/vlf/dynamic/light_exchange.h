@@ -6,6 +6,7 @@
 #include "vlf/dynamic/coverage.h"
 #include "vlf/dynamic/object_light.h"
 #include "vlf/dynamic/room_change.h"
+#include "vlf/dynamic/soft_shadow.h"
 #include "vlf/dynamic/update_times.h"
 #include "vlf/field/light_field.h"
 
@@ -78,6 +79,7 @@ class LightExchange {
 
     Coverage coverage_;
     RoomChange change_;
+    SoftShadows softShadows_;
     std::vector<TexelChange> shadows_, emitted_;
     ChangeBounce bounce_;
     std::optional<ChangeSweep> sweep_;                  ///< once an object emits

@@ -1,5 +1,6 @@
 #include "vlf/dynamic/sight.h"
 
+#include "vlf/base/thread_memory.h"
 #include "vlf/math/microfacet.h"
 #include "vlf/propagate/ray_gather.h"
 
@@ -22,42 +23,45 @@ Vec2 drawFor(const Ray& ray) {
 }  // namespace
 
 void SightTracer::trace(std::span<const Ray> rays, Sights& sights) {
+    const ThreadMemory<Memory> lent(memory_);
     sights_ = &sights;
     sights.others.clear();
     sights.texel.assign(rays.size(), kNoTexel);
     sights.distance.resize(rays.size());
     sights.within.assign(rays.size(), 0);
-    nextQueue_.clear(), nextPaths_.clear();
+    memory_.nextQueue.clear(), memory_.nextPaths.clear();
     findHits(rays, true);
     for (std::uint32_t i = 0; i < rays.size(); ++i) meet({i, 0, true, 0, Vec3(1)}, rays[i], i);
-    while (!nextQueue_.empty()) {
-        std::swap(queue_, nextQueue_), std::swap(paths_, nextPaths_);
-        nextQueue_.clear(), nextPaths_.clear();
-        findHits(queue_, false);
-        for (std::size_t i = 0; i < queue_.size(); ++i) meet(paths_[i], queue_[i], i);
+    while (!memory_.nextQueue.empty()) {
+        std::swap(memory_.queue, memory_.nextQueue), std::swap(memory_.paths, memory_.nextPaths);
+        memory_.nextQueue.clear(), memory_.nextPaths.clear();
+        findHits(memory_.queue, false);
+        for (std::size_t i = 0; i < memory_.queue.size(); ++i)
+            meet(memory_.paths[i], memory_.queue[i], i);
     }
 }
 
 void SightTracer::findHits(std::span<const Ray> rays, bool first) {
-    hits_.resize(rays.size());
-    rays_.closest(rays, hits_);
+    memory_.hits.resize(rays.size());
+    rays_.closest(rays, memory_.hits);
     const bool alone = objects_.lit.size() == 1 && objects_.own == 0;
     if (!objects_.rays || objects_.rays->empty() || (first && alone)) {
-        objectHits_.clear();
+        memory_.objectHits.clear();
         return;
     }
-    objectHits_.resize(rays.size());
+    memory_.objectHits.resize(rays.size());
     if (first && objects_.own != kNoObject)
-        objects_.rays->closestBut(objects_.own, rays, objectHits_);
+        objects_.rays->closestBut(objects_.own, rays, memory_.objectHits);
     else
-        objects_.rays->closest(rays, objectHits_);
+        objects_.rays->closest(rays, memory_.objectHits);
 }
 
 void SightTracer::meet(const Path& path, const Ray& ray, std::size_t i) {
-    if (!objectHits_.empty() && objectHits_[i] && objectHits_[i].hit.t < hits_[i].t)
-        meetObject(path, ray, objectHits_[i]);
-    else if (hits_[i])
-        meetRoom(path, ray, hits_[i]);
+    if (!memory_.objectHits.empty() && memory_.objectHits[i] &&
+        memory_.objectHits[i].hit.t < memory_.hits[i].t)
+        meetObject(path, ray, memory_.objectHits[i]);
+    else if (memory_.hits[i])
+        meetRoom(path, ray, memory_.hits[i]);
 }
 
 void SightTracer::meetRoom(const Path& path, const Ray& ray, const Hit& hit) {
@@ -123,8 +127,8 @@ void SightTracer::passGlass(Path path, const Ray& ray, const Hit& hit, bool fron
     path.planarOnly = path.planarOnly && glass.thin;
     if (++path.glass > kMaxReflections || maxComponent(path.throughput) < kMinThroughput) return;
     const Vec3 position = ray.origin + hit.t * ray.direction;
-    nextQueue_.push_back({position - rays_.epsilon() * side, ray.direction});
-    nextPaths_.push_back(path);
+    memory_.nextQueue.push_back({position - rays_.epsilon() * side, ray.direction});
+    memory_.nextPaths.push_back(path);
 }
 
 void SightTracer::meetObject(const Path& path, const Ray& ray, const InstanceHit& found) {
@@ -174,8 +178,8 @@ void SightTracer::reflect(Path path, const Ray& ray, float t, const MirrorPoint&
         reflected = glossy.direction;
     }
     if (glm::dot(reflected, mirror.side) <= 0) return;
-    nextQueue_.push_back({mirror.position + mirror.epsilon * mirror.side, reflected});
-    nextPaths_.push_back(path);
+    memory_.nextQueue.push_back({mirror.position + mirror.epsilon * mirror.side, reflected});
+    memory_.nextPaths.push_back(path);
 }
 
 std::uint32_t SightTracer::atlasTexel(std::uint32_t chart, const Vec3& position) const {

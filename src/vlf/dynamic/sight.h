@@ -89,10 +89,13 @@ class SightTracer {
     const RoomTexels& room_;
     SightObjects objects_;
     Sights* sights_ = nullptr;
-    std::vector<Hit> hits_;
-    std::vector<InstanceHit> objectHits_;
-    std::vector<Ray> queue_, nextQueue_;
-    std::vector<Path> paths_, nextPaths_;
+    struct Memory {
+        std::vector<Hit> hits;
+        std::vector<InstanceHit> objectHits;
+        std::vector<Ray> queue, nextQueue;
+        std::vector<Path> paths, nextPaths;
+    };
+    Memory memory_;  ///< the thread's during trace()
 };
 
 /// Diffuse radiance that leaves what is seen: `texelRadiance` is by atlas texel of the room.

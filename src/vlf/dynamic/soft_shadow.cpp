@@ -1,6 +1,7 @@
 #include "vlf/dynamic/soft_shadow.h"
 
 #include "vlf/base/parallel.h"
+#include "vlf/base/thread_memory.h"
 #include "vlf/dynamic/sight.h"
 #include "vlf/dynamic/texel_square.h"
 #include "vlf/math/frame.h"
@@ -29,18 +30,14 @@ bool mayHide(const Sphere& receiver, const Sphere& light, const Sphere& object) 
     return angle <= std::asin(lightReach / lightDistance) + std::asin(objectReach / objectDistance);
 }
 
-/// A light or an image of it, and the objects as they stand in its way: those before mirrors, and
-/// the images of those behind.
-struct Obstruction {
-    Sphere light;
-    std::vector<Sphere> objects;
-};
-
-std::vector<Obstruction> findObstructions(const RoomTexels& room, std::span<const Sphere> objects) {
-    std::vector<Obstruction> all;
-    for (const LightImage& image : room.sources.images) {
+void findObstructions(const RoomTexels& room, std::span<const Sphere> objects,
+                      std::vector<Obstruction>& all) {
+    all.resize(room.sources.images.size());
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        const LightImage& image = room.sources.images[i];
         const Light& light = room.sources.lights[image.light];
-        Obstruction o;
+        Obstruction& o = all[i];
+        o.objects.clear();
         o.light = {image.imageFromWorld.point(light.centre), light.radius};
         // In the way before the first mirror, between it and the next, and so on.
         for (const Sphere& object : objects)
@@ -53,9 +50,7 @@ std::vector<Obstruction> findObstructions(const RoomTexels& room, std::span<cons
                 }
                 o.objects.push_back(seen);
             }
-        all.push_back(std::move(o));
     }
-    return all;
 }
 
 bool mayBeShadowed(const Sphere& receiver, const std::vector<Obstruction>& obstructions) {
@@ -83,7 +78,8 @@ bool isSmooth(const Sphere& receiver, const std::vector<Obstruction>& obstructio
 
 std::vector<std::uint32_t> texelsInShadow(const Scene& scene, const RoomTexels& room,
                                           std::span<const Sphere> objects) {
-    const std::vector<Obstruction> obstructions = findObstructions(room, objects);
+    std::vector<Obstruction> obstructions;
+    findObstructions(room, objects, obstructions);
     std::vector<std::uint32_t> found;
     for (const TexelGroup& group : room.groups) {
         if (!mayBeShadowed(group.bounds, obstructions)) continue;
@@ -117,10 +113,11 @@ class ShadowedTexel {
     }
 
     Vec3 loss(const LightReceiver& receiver) {
+        const ThreadMemory<Memory> lent(memory_);
         sort({receiver.centre, receiver.radius});
         Vec3 sum(0);
         if (anySampled_) {
-            gatherer_.setImages(sampled_);
+            gatherer_.setImages(memory_.sampled);
             sum += gatherer_.irradianceBlocked(receiver, samples_);
         }
         if (anyLarge_)
@@ -131,8 +128,8 @@ class ShadowedTexel {
   private:
     /// Which images are to be sampled by their points, and which lights look larger than an object.
     void sort(const Sphere& receiver) {
-        sampled_.assign(obstructions_.size(), 0);
-        large_.assign(room_.sources.lights.size(), 0);
+        memory_.sampled.assign(obstructions_.size(), 0);
+        memory_.large.assign(room_.sources.lights.size(), 0);
         anySampled_ = anyLarge_ = false;
         for (std::size_t i = 0; i < obstructions_.size(); ++i) {
             const Obstruction& o = obstructions_[i];
@@ -149,9 +146,9 @@ class ShadowedTexel {
             const Vec3 way = o.light.centre - receiver.centre;
             const float seen = light.area / std::max(glm::dot(way, way), 1e-20f);
             if (image.depth == 0 && seen > kLarger * widest)
-                large_[image.light] = anyLarge_ = true;
+                memory_.large[image.light] = anyLarge_ = true;
             else
-                sampled_[i] = anySampled_ = true;
+                memory_.sampled[i] = anySampled_ = true;
         }
     }
 
@@ -170,7 +167,7 @@ class ShadowedTexel {
             return Vec3(0);
         const Frame frame = frameFromNormal(glm::normalize(way));
         const Vec2 shift(0.5f);  // the same for all: what they miss is the same
-        queue_.clear(), weights_.clear();
+        memory_.queue.clear(), memory_.weights.clear();
         for (int k = 0; k < kConeSamples; ++k) {
             const SurfacePoint& p = r.points[static_cast<std::size_t>(k) % r.points.size()];
             const Vec3 geometric = r.side * geometricNormal(*r.scene, p.triangle);
@@ -183,33 +180,35 @@ class ShadowedTexel {
             const float cosine = glm::dot(normal, direction);
             if (cosine <= 0 || glm::dot(geometric, direction) <= 0) continue;
             const float lobe = 0.5f * (1 + glm::dot(normal, geometric));
-            queue_.push_back(
+            memory_.queue.push_back(
                 {positionAt(*r.scene, p.triangle, p.barycentric) + rays_.epsilon() * geometric,
                  direction});
-            weights_.push_back(cosine / lobe * angle / kConeSamples);
+            memory_.weights.push_back(cosine / lobe * angle / kConeSamples);
         }
         return emissionBehind(i);
     }
 
     /// Along the rays that meet object i first, what large lights would send without it.
     Vec3 emissionBehind(std::uint32_t object) {
-        hits_.resize(queue_.size());
-        casters_.closest(queue_, hits_);
+        memory_.hits.resize(memory_.queue.size());
+        casters_.closest(memory_.queue, memory_.hits);
         std::size_t kept = 0;
-        for (std::size_t k = 0; k < queue_.size(); ++k) {
-            if (!hits_[k] || hits_[k].instance != object) continue;
-            queue_[kept] = queue_[k], weights_[kept] = weights_[k], hits_[kept] = hits_[k];
+        for (std::size_t k = 0; k < memory_.queue.size(); ++k) {
+            if (!memory_.hits[k] || memory_.hits[k].instance != object) continue;
+            memory_.queue[kept] = memory_.queue[k], memory_.weights[kept] = memory_.weights[k],
+            memory_.hits[kept] = memory_.hits[k];
             ++kept;
         }
-        queue_.resize(kept);
+        memory_.queue.resize(kept);
         if (kept == 0) return Vec3(0);
-        tracer_.trace(queue_, sights_);
+        tracer_.trace(memory_.queue, memory_.sights);
         Vec3 sum(0);
-        for (const Sight& sight : sights_.others) {
+        for (const Sight& sight : memory_.sights.others) {
             if (sight.inMirror || sight.emission == Vec3(0)) continue;
             const std::uint32_t light = room_.triangles[sight.triangle].light;
-            if (light != kNoLight && large_[light] && sight.distance > hits_[sight.ray].hit.t)
-                sum += weights_[sight.ray] * sight.emission;
+            if (light != kNoLight && memory_.large[light] &&
+                sight.distance > memory_.hits[sight.ray].hit.t)
+                sum += memory_.weights[sight.ray] * sight.emission;
         }
         return sum;
     }
@@ -226,62 +225,66 @@ class ShadowedTexel {
     int samples_;
     LightGatherer gatherer_;
     SightTracer tracer_;
-    std::vector<std::uint8_t> sampled_, large_;  ///< by image, by light
     bool anySampled_ = false, anyLarge_ = false;
-    std::vector<Ray> queue_;
-    std::vector<float> weights_;
-    std::vector<InstanceHit> hits_;
-    Sights sights_;
+    struct Memory {
+        std::vector<std::uint8_t> sampled, large;  ///< by image, by light
+        std::vector<Ray> queue;
+        std::vector<float> weights;
+        std::vector<InstanceHit> hits;
+        Sights sights;
+    };
+    Memory memory_;  ///< the thread's during loss()
 };
 
 }  // namespace
 
 ExtraOccluder occluderOf(const RayInstances& instances) {
-    return [&instances, own = std::vector<std::uint8_t>()](
-               std::span<const Ray> rays, std::span<std::uint8_t> blocked) mutable {
+    return [&instances](std::span<const Ray> rays, std::span<std::uint8_t> blocked) {
+        thread_local std::vector<std::uint8_t> own;
         own.resize(rays.size());
         instances.occluded(rays, own);
         for (std::size_t i = 0; i < own.size(); ++i) blocked[i] |= own[i];
     };
 }
 
-TexelLoss findSoftShadows(const Scene& scene, const RayScene& rays, const RoomTexels& room,
-                          const Coverage& coverage, const RayInstances& casters,
-                          std::span<const Sphere> objects, int samples, float slight) {
-    const std::vector<Obstruction> obstructions = findObstructions(room, objects);
-    std::vector<std::uint32_t> groups;
+const TexelLoss& SoftShadows::find(const Scene& scene, const RayScene& rays, const RoomTexels& room,
+                                   const Coverage& coverage, const RayInstances& casters,
+                                   std::span<const Sphere> objects, int samples, float slight) {
+    findObstructions(room, objects, obstructions_);
+    groups_.clear();
     for (std::uint32_t g = 0; g < room.groups.size(); ++g)
-        if (mayBeShadowed(room.groups[g].bounds, obstructions)) groups.push_back(g);
-    std::vector<std::vector<std::pair<std::uint32_t, Vec3>>> parts(groups.size());
-    parallelFor(groups.size(), 1, [&](std::size_t i) {
-        ShadowedTexel texel(scene, rays, room, casters, objects, obstructions, samples);
+        if (mayBeShadowed(room.groups[g].bounds, obstructions_)) groups_.push_back(g);
+    if (parts_.size() < groups_.size()) parts_.resize(groups_.size());
+    parallelFor(groups_.size(), [&](std::size_t i) {
+        ShadowedTexel texel(scene, rays, room, casters, objects, obstructions_, samples);
         const auto find = [&](std::uint32_t entry) {
             LightReceiver receiver = texelReceiver(scene, room.unwrap, entry);
             receiver.points = coverage.points(room, entry);
             return receiver.points.empty() ? Vec3(0) : texel.loss(receiver);
         };
+        parts_[i].clear();
         const auto keep = [&](std::uint32_t t, const Vec3& loss) {
-            if (loss != Vec3(0)) parts[i].emplace_back(room.entryOf[t], loss);
+            if (loss != Vec3(0)) parts_[i].emplace_back(room.entryOf[t], loss);
         };
-        const TexelGroup& group = room.groups[groups[i]];
-        if (isSmooth(group.bounds, obstructions)) {
+        const TexelGroup& group = room.groups[groups_[i]];
+        if (isSmooth(group.bounds, obstructions_)) {
             TexelSquare(room, group).light(slight, find, keep);
             return;
         }
         for (std::uint32_t k = group.first; k < group.first + group.count; ++k) {
             const std::uint32_t entry = room.grouped[k];
             const LightReceiver r = texelReceiver(scene, room.unwrap, entry);
-            if (mayBeShadowed({r.centre, r.radius}, obstructions))
+            if (mayBeShadowed({r.centre, r.radius}, obstructions_))
                 keep(room.unwrap.texels[entry], find(entry));
         }
     });
-    TexelLoss result;
-    for (const auto& part : parts)
-        for (const auto& [entry, loss] : part) {
-            result.entries.push_back(entry);
-            result.loss.push_back(loss);
+    loss_.entries.clear(), loss_.loss.clear();
+    for (std::size_t i = 0; i < groups_.size(); ++i)
+        for (const auto& [entry, loss] : parts_[i]) {
+            loss_.entries.push_back(entry);
+            loss_.loss.push_back(loss);
         }
-    return result;
+    return loss_;
 }
 
 }  // namespace vlf

@@ -14,6 +14,7 @@
 
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace vlf {
@@ -32,11 +33,28 @@ struct TexelLoss {
 std::vector<std::uint32_t> texelsInShadow(const Scene& scene, const RoomTexels& room,
                                           std::span<const Sphere> objects);
 
-/// `casters` are the objects, in the order of the spheres around them. What they cover loses
-/// nothing. `samples` of each texel, at most. Over squares of 64 texels where nine agree that it
-/// changes evenly, or to less than `slight` (W·m⁻²), it is interpolated.
-TexelLoss findSoftShadows(const Scene& scene, const RayScene& rays, const RoomTexels& room,
+/// A light or an image of it, and the objects as they stand in its way: those before mirrors, and
+/// the images of those behind.
+struct Obstruction {
+    Sphere light;
+    std::vector<Sphere> objects;
+};
+
+class SoftShadows {
+  public:
+    /// `casters` are the objects, in the order of the spheres around them. What they cover loses
+    /// nothing. `samples` of each texel, at most. Over squares of 64 texels where nine agree that
+    /// it changes evenly, or to less than `slight` (W·m⁻²), it is interpolated. Valid until the
+    /// next call.
+    const TexelLoss& find(const Scene& scene, const RayScene& rays, const RoomTexels& room,
                           const Coverage& coverage, const RayInstances& casters,
                           std::span<const Sphere> objects, int samples, float slight);
+
+  private:
+    std::vector<Obstruction> obstructions_;
+    std::vector<std::uint32_t> groups_;  ///< of texels, that may be shadowed
+    std::vector<std::vector<std::pair<std::uint32_t, Vec3>>> parts_;  ///< entries and loss by group
+    TexelLoss loss_;
+};
 
 }  // namespace vlf

@@ -1,5 +1,6 @@
 #include "vlf/propagate/light_gatherer.h"
 
+#include "vlf/base/thread_memory.h"
 #include "vlf/math/form_factor.h"
 #include "vlf/math/frame.h"
 #include "vlf/math/random.h"
@@ -100,11 +101,13 @@ Vec3 LightGatherer::irradianceBlocked(const LightReceiver& receiver, int samples
 
 DirectEstimate LightGatherer::estimateAll(const LightReceiver& receiver, int samples,
                                           std::uint64_t pass) {
-    effects_.clear();
+    const ThreadMemory<Memory> lent(memory_);
+    memory_.effects.clear();
     float sum = 0;
     for (std::size_t i = 0; i < sources_.images.size(); ++i) {
         const bool counts = counted_.empty() || counted_[i] != 0;
-        sum += effects_.emplace_back(counts ? likelyEffect(receiver, sources_.images[i]) : 0.0f);
+        sum += memory_.effects.emplace_back(counts ? likelyEffect(receiver, sources_.images[i])
+                                                   : 0.0f);
     }
     DirectEstimate total{.unoccluded = sum, .samples = samples};
     if (sum <= 0) return total;
@@ -118,15 +121,15 @@ DirectEstimate LightGatherer::estimateAll(const LightReceiver& receiver, int sam
     // are many, all but the strongest share theirs.
     const bool crowd = sources_.lights.size() > kCrowd;
     float rest = 0;
-    for (std::size_t i = 0; i < effects_.size(); ++i) {
-        if (effects_[i] <= 0) continue;
-        if (crowd && effects_[i] < kApart * sum) {
-            rest += effects_[i];
+    for (std::size_t i = 0; i < memory_.effects.size(); ++i) {
+        if (memory_.effects[i] <= 0) continue;
+        if (crowd && memory_.effects[i] < kApart * sum) {
+            rest += memory_.effects[i];
             continue;
         }
         // Of little effect, one is picked with a probability below one.
-        const float n = wanted(effects_[i]);
-        effects_[i] = 0;
+        const float n = wanted(memory_.effects[i]);
+        memory_.effects[i] = 0;
         if (n < 1 && random.next() >= n) continue;
         total.add(gather(receiver, sources_.images[i], std::max(1, static_cast<int>(std::ceil(n))),
                          random),
@@ -138,21 +141,21 @@ DirectEstimate LightGatherer::estimateAll(const LightReceiver& receiver, int sam
     return total;
 }
 
-/// Irradiance from the images of which effects_ (of this sum) is not 0 by n samples in all: an
-/// image is drawn in proportion to its effect, evenly spaced in their order.
+/// Irradiance from the images of which memory_.effects (of this sum) is not 0 by n samples in all:
+/// an image is drawn in proportion to its effect, evenly spaced in their order.
 DirectEstimate LightGatherer::gatherTogether(const LightReceiver& r, float effect, int n,
                                              RandomStream& random) {
     const float step = effect / static_cast<float>(n);
     float next = random.next() * step, sum = 0, squares = 0;
     DirectEstimate total;
-    for (std::size_t i = 0; i < effects_.size(); ++i) {
-        sum += effects_[i];
+    for (std::size_t i = 0; i < memory_.effects.size(); ++i) {
+        sum += memory_.effects[i];
         int drawn = 0;
         for (; next < sum; next += step) ++drawn;
         if (drawn == 0) continue;
         const auto weight = static_cast<float>(drawn) / static_cast<float>(n);
         const Vec3 value = gather(r, sources_.images[i], drawn, random).value;
-        const Vec3 mean = effect / effects_[i] * value;
+        const Vec3 mean = effect / memory_.effects[i] * value;
         total.value += weight * mean;
         squares += weight * luminance(mean) * luminance(mean);
     }
@@ -234,7 +237,7 @@ DirectEstimate LightGatherer::meanOfSamples(int n) const {
     const auto count = static_cast<float>(n);
     Vec3 sum(0);
     float squares = 0;
-    for (const Sample& s : samples_) {
+    for (const Sample& s : memory_.samples) {
         const Vec3 contribution = s.geometry * s.throughput * s.radiance;
         sum += contribution;
         squares += luminance(contribution) * luminance(contribution);
@@ -253,7 +256,7 @@ DirectEstimate LightGatherer::gatherByFormFactor(const LightReceiver& r, const L
     findVisible();
     Vec3 throughput(0);
     float geometry = 0, visible = 0;
-    for (const Sample& s : samples_) {
+    for (const Sample& s : memory_.samples) {
         geometry += s.geometry;
         throughput += s.geometry * s.throughput;
         visible += maxComponent(s.throughput) > 0 ? s.geometry : 0;
@@ -295,7 +298,7 @@ void LightGatherer::drawNearSamples(const LightReceiver& r, const Light& light, 
                                     RandomStream& random) {
     const Vec2 shift = random.next2();
     const float rotation = random.next();
-    samples_.clear();
+    memory_.samples.clear();
     for (int j = 0; j < n; ++j) {
         const Point p = pointOf(r, j, n, rotation);
         const Vec3 direction =
@@ -313,7 +316,7 @@ void LightGatherer::drawNearSamples(const LightReceiver& r, const Light& light, 
             continue;
         const Vec3 radiance = emittedRadiance(scene_, scene_.material(hit.triangle),
                                               uvAt(scene_, hit.triangle, hit.barycentric));
-        samples_.push_back({kPi / lobe(p.shading, p.geometric), radiance, passed.colour});
+        memory_.samples.push_back({kPi / lobe(p.shading, p.geometric), radiance, passed.colour});
     }
 }
 
@@ -324,8 +327,8 @@ void LightGatherer::drawSamples(const LightReceiver& r, const LightImage& image,
     const Light& light = sources_.lights[image.light];
     const Vec2 shift = random.next2();
     const float rotation = random.next();
-    samples_.clear();
-    shadowRays_.clear();
+    memory_.samples.clear();
+    memory_.shadowRays.clear();
     for (int j = 0; j < n; ++j) {
         const Point p = pointOf(r, j, n, rotation);
         const LightSample s = sampleLight(scene_, light, r2Point(j, shift));
@@ -337,37 +340,38 @@ void LightGatherer::drawSamples(const LightReceiver& r, const LightImage& image,
         if (g <= 0) continue;
         if (image.depth == 0) {
             addShadowRay(p, s.point);
-            samples_.push_back({g, s.radiance, Vec3(1)});
+            memory_.samples.push_back({g, s.radiance, Vec3(1)});
         } else {
-            samples_.push_back({g, s.radiance, followImage(p, image, s.point)});
+            memory_.samples.push_back({g, s.radiance, followImage(p, image, s.point)});
         }
     }
 }
 
-/// Traces the shadow rays of samples_ (none if they went by mirrors).
+/// Traces the shadow rays of memory_.samples (none if they went by mirrors).
 void LightGatherer::findVisible() {
     if (counts_ == Counts::blockedByExtra) return keepBlockedByExtra();
     if (rays_.hasPanes()) {
-        passed_.resize(shadowRays_.size());
-        rays_.transmittance(shadowRays_, passed_);
-        for (std::size_t i = 0; i < shadowRays_.size(); ++i) samples_[i].throughput = passed_[i];
-        blocked_.assign(shadowRays_.size(), 0);
+        memory_.passed.resize(memory_.shadowRays.size());
+        rays_.transmittance(memory_.shadowRays, memory_.passed);
+        for (std::size_t i = 0; i < memory_.shadowRays.size(); ++i)
+            memory_.samples[i].throughput = memory_.passed[i];
+        memory_.blocked.assign(memory_.shadowRays.size(), 0);
     } else {
-        blocked_.resize(shadowRays_.size());
-        rays_.occluded(shadowRays_, blocked_);
+        memory_.blocked.resize(memory_.shadowRays.size());
+        rays_.occluded(memory_.shadowRays, memory_.blocked);
     }
-    if (extra_) extra_(shadowRays_, blocked_);
-    for (std::size_t i = 0; i < blocked_.size(); ++i)
-        if (blocked_[i]) samples_[i].throughput = Vec3(0);
+    if (extra_) extra_(memory_.shadowRays, memory_.blocked);
+    for (std::size_t i = 0; i < memory_.blocked.size(); ++i)
+        if (memory_.blocked[i]) memory_.samples[i].throughput = Vec3(0);
 }
 
 /// The room is asked only where something else is in the way, which is rare.
 void LightGatherer::keepBlockedByExtra() {
-    blockedByExtra_.assign(shadowRays_.size(), 0);
-    extra_(shadowRays_, blockedByExtra_);
-    for (std::size_t i = 0; i < shadowRays_.size(); ++i)
-        samples_[i].throughput =
-            blockedByExtra_[i] ? rays_.transmittance(shadowRays_[i]).colour : Vec3(0);
+    memory_.blockedByExtra.assign(memory_.shadowRays.size(), 0);
+    extra_(memory_.shadowRays, memory_.blockedByExtra);
+    for (std::size_t i = 0; i < memory_.shadowRays.size(); ++i)
+        memory_.samples[i].throughput =
+            memory_.blockedByExtra[i] ? rays_.transmittance(memory_.shadowRays[i]).colour : Vec3(0);
 }
 
 bool LightGatherer::extraBlocks(const Ray& ray) {
@@ -413,7 +417,7 @@ float LightGatherer::formFactor(const Point& p, const Light& light, const LightI
 void LightGatherer::addShadowRay(const Point& p, const Vec3& y) {
     const Vec3 origin = p.position + rays_.epsilon() * p.geometric;
     const Vec3 d = y - origin;
-    shadowRays_.push_back({origin, d, 0, 1 - 2 * rays_.epsilon() / glm::length(d)});
+    memory_.shadowRays.push_back({origin, d, 0, 1 - 2 * rays_.epsilon() / glm::length(d)});
 }
 
 /// Whether the line from p to the image of y crosses the rectangles of all its mirrors, which

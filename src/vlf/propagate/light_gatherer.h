@@ -101,11 +101,14 @@ class LightGatherer {
     ExtraOccluder extra_;
     std::span<const std::uint8_t> counted_;
     Counts counts_ = Counts::seen;
-    std::vector<float> effects_;
-    std::vector<Ray> shadowRays_;
-    std::vector<std::uint8_t> blocked_, blockedByExtra_;
-    std::vector<Vec3> passed_;
-    std::vector<Sample> samples_;
+    struct Memory {
+        std::vector<float> effects;
+        std::vector<Ray> shadowRays;
+        std::vector<std::uint8_t> blocked, blockedByExtra;
+        std::vector<Vec3> passed;
+        std::vector<Sample> samples;
+    };
+    Memory memory_;  ///< the thread's while it works
 };
 
 }  // namespace vlf

@@ -55,7 +55,8 @@ class SoftShadow : public testing::Test {
         instances.place({&instance, 1});
         const Sphere sphere{pose.point(model.bounds().centre), pose.scale * model.bounds().radius};
         candidates = texelsInShadow(plates().scene, plates().texels, {&sphere, 1});
-        loss = findSoftShadows(plates().scene, plates().rays, plates().texels,
+        SoftShadows shadows;
+        loss = shadows.find(plates().scene, plates().rays, plates().texels,
                                Coverage(plates().texels), instances, {&sphere, 1}, samples, 0);
     }
 
