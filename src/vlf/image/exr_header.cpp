@@ -108,10 +108,14 @@ class HeaderReader {
 }  // namespace
 
 void checkExrHeader(Bytes bytes, const std::string& name) {
-    constexpr std::int32_t kMultiPart = 0x1000;
+    constexpr std::int32_t kDeep = 0x800, kMultiPart = 0x1000;
     HeaderReader reader(bytes, name);
     reader.take(4);  // magic number
-    const bool multiPart = (reader.takeInt() & kMultiPart) != 0;
+    const std::int32_t version = reader.takeInt();
+    if (version & kDeep)
+        throw InputError(name +
+                         ": EXR file of deep data, of which no picture is read; flatten it first");
+    const bool multiPart = (version & kMultiPart) != 0;
     while (reader.checkHeader() && multiPart) continue;
 }
 

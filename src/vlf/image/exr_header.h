@@ -9,7 +9,8 @@ namespace vlf {
 
 /// Throws InputError, with `name` in front, unless every attribute in the headers of all parts
 /// lies within the file, those of fixed size have it, and data windows and tiles are of a size that
-/// the file can hold (see requireImageSize). The bytes begin with the magic number.
+/// the file can hold (see requireImageSize), or if data are deep. The bytes begin with the magic
+/// number.
 void checkExrHeader(std::span<const std::uint8_t> bytes, const std::string& name);
 
 }  // namespace vlf

@@ -205,6 +205,15 @@ TEST(Exr, RejectsAnAttributeLargerThanTheFile) {
     EXPECT_THROW(decodeImage(bytes, "large attribute"), InputError);
 }
 
+TEST(Exr, RefusesDeepDataAtOnce) {
+    const test::TemporaryFolder folder;
+    writeExr(folder.path("a.exr"), Image(4, 4));
+    std::vector<std::uint8_t> bytes = readFile(folder.path("a.exr"));
+    bytes[5] |= 8;  // bit 11 of the version field
+    writeFile(folder.path("b.exr"), bytes);
+    EXPECT_NE(messageOf(folder.path("b.exr")).find("deep data"), std::string::npos);
+}
+
 TEST(Exr, RefusesToWriteAnEmptyImage) {
     const test::TemporaryFolder folder;
     EXPECT_THROW(writeExr(folder.path("a.exr"), Image()), InputError);
