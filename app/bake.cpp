@@ -33,6 +33,7 @@ namespace {
 
 struct Options {
     std::vector<std::string> scenes;
+    EnvironmentOptions environment;
     QualityOptions quality;
     CameraOptions camera;  // of the error map
     std::string output, json, errorMap, instructionSet;
@@ -42,10 +43,11 @@ struct Options {
 };
 
 Scene readScene(const Options& options, const Globals& globals) {
-    Scene scene = readScenes(options.scenes, globals);
+    Scene scene = readScenes(options.scenes, options.environment, globals);
     if (scene.cameras.empty()) scene.cameras.push_back(defaultCamera(scene));
-    if (!hasEmitter(scene))
-        printWarning(globals.quiet, "the scene has no emitter: everything will be black");
+    if (!hasLight(scene))
+        printWarning(globals.quiet,
+                     "the scene has no emitter and no environment: everything will be black");
     return scene;
 }
 
@@ -207,6 +209,7 @@ void addBake(CLI::App& app, const Globals& globals) {
         ->required()
         ->type_name("SCENE...");
     command->add_option("-o,--output", options->output, "Field file to write (.vlf)")->required();
+    addEnvironmentOptions(*command, options->environment);
     addQualityOptions(*command, options->quality);
     command->add_option("--max-memory", options->maxMemory, "Refuse to need more, in GiB")
         ->check(CLI::PositiveNumber);
@@ -233,6 +236,7 @@ void addBake(CLI::App& app, const Globals& globals) {
         "  vlf bake room.obj -o room.vlf\n"
         "  vlf bake room.glb lights.obj -o room.vlf --preset high --texel 0.03\n"
         "  vlf bake room.obj -o room.vlf --error 1% --error-map error.png\n"
+        "  vlf bake house.obj -o house.vlf --environment sky.hdr --environment-turn 90\n"
         "  vlf bake room.obj -o room.vlf --resume\n"
         "Ctrl-C stops and keeps what is done in room.vlf.checkpoint, from which --resume goes on.\n"
         "A field file that was there before is left as it was.");

@@ -13,6 +13,7 @@
 #include <string>
 
 #include <fmt/format.h>
+#include <glm/trigonometric.hpp>
 #include <nlohmann/json.hpp>
 
 namespace vlf::app {
@@ -113,6 +114,36 @@ Json toJson(const BakeRecord& r) {
               {"escaped", toJson(r.energy.escaped)}}}};
 }
 
+const char* nameOf(PunctualKind kind) {
+    switch (kind) {
+        case PunctualKind::point:
+            return "point";
+        case PunctualKind::spot:
+            return "spot";
+        default:
+            return "directional";
+    }
+}
+
+Json toJson(const PunctualLight& l) {
+    Json json = {{"name", l.name}, {"kind", nameOf(l.kind)}, {"intensity", toJson(l.intensity)}};
+    if (l.kind != PunctualKind::directional) json["position"] = toJson(l.position);
+    if (l.kind != PunctualKind::point) json["direction"] = toJson(l.direction);
+    if (l.kind == PunctualKind::spot)
+        json["cones"] = {glm::degrees(l.innerCone), glm::degrees(l.outerCone)};
+    return json;
+}
+
+/// Null if there is none.
+Json toJson(const EnvironmentInfo& e) {
+    if (!(maxComponent(e.radiance) > 0)) return nullptr;
+    return {{"name", e.name},
+            {"radiance", toJson(e.radiance)},
+            {"turn", e.turn},
+            {"width", e.width},
+            {"height", e.height}};
+}
+
 double bytesPerGpuElement(const GpuMemory& memory) {
     if (memory.radianceElements == 0) return 0;
     return static_cast<double>(memory.radiance) / static_cast<double>(memory.radianceElements);
@@ -130,6 +161,8 @@ Json toJson(const GpuMemory& memory) {
 
 Json toJson(const Options& options, const FieldFileInfo& info) {
     Json cameras = Json::array(), meshes = Json::array(), chunks = Json::array();
+    Json lights = Json::array();
+    for (const PunctualLight& l : info.lights) lights.push_back(toJson(l));
     for (const Camera& c : info.cameras)
         cameras.push_back({{"name", c.name},
                            {"eye", toJson(c.eye)},
@@ -154,6 +187,8 @@ Json toJson(const Options& options, const FieldFileInfo& info) {
             {"frame", {{"centre", toJson(info.frame.centre)}, {"radius", info.frame.radius}}},
             {"bake", toJson(info.record)},
             {"cameras", cameras},
+            {"lights", lights},
+            {"environment", toJson(info.environment)},
             {"meshes", meshes},
             {"chunks", chunks}};
 }
@@ -174,6 +209,15 @@ void printLine(const char* name, const T& value) {
     fmt::print("  {:<20} {}\n", name, value);
 }
 
+std::string readable(const EnvironmentInfo& e) {
+    const Vec3& r = e.radiance;
+    if (!(maxComponent(r) > 0)) return "none";
+    const std::string radiance = fmt::format("{:.4g} {:.4g} {:.4g}", r.x, r.y, r.z);
+    if (e.width == 0) return radiance + " W/(m² sr) all around";
+    return fmt::format("{} ({} x {} pixels) x {}, turned by {:.4g} degrees", e.name, e.width,
+                       e.height, radiance, e.turn);
+}
+
 void printScene(const FieldFileInfo& info) {
     const FieldCounts& c = info.counts;
     fmt::print("\nscene\n");
@@ -185,6 +229,11 @@ void printScene(const FieldFileInfo& info) {
     printLine("sphere",
               fmt::format("centre {:.4g} {:.4g} {:.4g}, radius {:.4g} m", info.frame.centre.x,
                           info.frame.centre.y, info.frame.centre.z, info.frame.radius));
+    for (const PunctualLight& l : info.lights)
+        printLine("light", fmt::format("{} ({}, {:.4g} {:.4g} {:.4g} {})", l.name, nameOf(l.kind),
+                                       l.intensity.x, l.intensity.y, l.intensity.z,
+                                       l.kind == PunctualKind::directional ? "W/m²" : "W/sr"));
+    printLine("environment", readable(info.environment));
     for (const Camera& camera : info.cameras)
         printLine("camera",
                   fmt::format("{} (at {:.4g} {:.4g} {:.4g}, {:.4g} degrees high)", camera.name,

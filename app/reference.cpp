@@ -24,6 +24,7 @@ namespace {
 
 struct Options {
     std::vector<std::string> scenes;
+    EnvironmentOptions environment;
     CameraOptions camera;
     PictureOptions picture;
     std::string json, variance;
@@ -101,14 +102,14 @@ void run(const Options& options, const Globals& globals) {
         if (options.samplesPerPixel <= 0)
             throw CLI::ValidationError("--irradiance", "needs --spp, the samples per texel");
         return runIrradianceReference(
-            {options.scenes, options.field, options.picture.path, options.samplesPerPixel,
-             options.texels, options.texelPoints, options.interpolated},
+            {options.scenes, options.environment, options.field, options.picture.path,
+             options.samplesPerPixel, options.texels, options.texelPoints, options.interpolated},
             globals);
     }
     if (const std::string problem = pictureNameProblem(options.picture.path); !problem.empty())
         throw CLI::ValidationError("--output", problem);
     requireWritableOutputs({options.picture.path, options.variance, options.json});
-    const Scene scene = readScenes(options.scenes, globals);
+    const Scene scene = readScenes(options.scenes, options.environment, globals);
     const PathTraceParams params = traceParams(options, globals, scene);
     PathTraceResult result;
     {
@@ -168,6 +169,7 @@ void addReference(CLI::App& app, const Globals& globals) {
     command->add_option("scenes", options->scenes, "Scene files (.obj, .gltf, .glb), merged")
         ->required()
         ->type_name("SCENE...");
+    addEnvironmentOptions(*command, options->environment);
     addCameraOptions(*command, options->camera);
     addLimits(*command, *options);
     addPictureOptions(*command, options->picture, true);

@@ -26,10 +26,12 @@ namespace {
 
 void requireSameScene(const IrradianceOptions& options, const BakedRoom& room) {
     ImportReport report;
-    const Scene scene = importScene(options.scenes, report);
+    Scene scene = importScene(options.scenes, report);
+    surround(scene, options.environment);
     if (sceneHash(scene) != room.field.record.sceneHash)
         throw InputError(options.field + ": was baked from another scene than " +
-                         options.scenes.front() + ": bake it again, or name the files it is from");
+                         options.scenes.front() +
+                         ": bake it again, or name the files it is from and their environment");
 }
 
 /// Texels that scatter light: what falls on a black surface, a lamp or a plain mirror, is never

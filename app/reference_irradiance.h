@@ -2,6 +2,7 @@
 // The irradiance mode of vlf reference.
 
 #include "commands.h"
+#include "environment_options.h"
 
 #include <string>
 #include <vector>
@@ -10,6 +11,7 @@ namespace vlf::app {
 
 struct IrradianceOptions {
     std::vector<std::string> scenes;
+    EnvironmentOptions environment;
     std::string field;   ///< .vlf to be measured
     std::string output;  ///< .json
     int samplesPerTexel = 1024;

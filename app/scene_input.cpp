@@ -15,11 +15,13 @@ void print(const ImportReport& report, const Globals& globals) {
 
 }  // namespace
 
-Scene readScenes(const std::vector<std::string>& paths, const Globals& globals) {
+Scene readScenes(const std::vector<std::string>& paths, const EnvironmentOptions& environment,
+                 const Globals& globals) {
     ImportReport report;
     try {
         Scene scene = importScene(paths, report);
         print(report, globals);
+        surround(scene, environment);
         return scene;
     } catch (const Error&) {
         print(report, globals);  // they may explain it

@@ -204,7 +204,17 @@ json document(Buffer& buffer) {
     root["samplers"] = {{{"wrapS", 33071}, {"wrapT", 33648}}};
     root["images"] = {{{"bufferView", picture}, {"mimeType", "image/png"}},
                       {{"uri", "texture.png"}}};
-    root["extensionsUsed"] = {"KHR_texture_transform", "KHR_materials_emissive_strength"};
+    root["extensionsUsed"] = {"KHR_texture_transform", "KHR_materials_emissive_strength",
+                              "KHR_lights_punctual"};
+    root["extensions"] = {{"KHR_lights_punctual",
+                           {{"lights",
+                             {{{"type", "spot"},
+                               {"color", {1, 0.5, 0}},
+                               {"intensity", 30},
+                               {"spot", {{"innerConeAngle", 0.1}, {"outerConeAngle", 0.5}}}},
+                              {{"type", "directional"}, {"range", 4}}}}}}};
+    root["nodes"][0]["extensions"] = {{"KHR_lights_punctual", {{"light", 0}}}};
+    root["nodes"][2]["extensions"] = {{"KHR_lights_punctual", {{"light", 1}}}};
     buffer.describe(root);
     return root;
 }

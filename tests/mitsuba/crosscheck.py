@@ -4,10 +4,12 @@
     python3 -m venv venv && venv/bin/pip install mitsuba numpy
     venv/bin/python tests/mitsuba/crosscheck.py images --vlf build/app/vlf
     venv/bin/python tests/mitsuba/crosscheck.py irradiance --vlf build/app/vlf
+    venv/bin/python tests/mitsuba/crosscheck.py lights --vlf build/app/vlf
 
 `images` renders example scenes with `vlf reference` and with Mitsuba and compares the means of the
 picture's regions. `irradiance` does so with the irradiance of texels, and of regions of them, by
-`vlf reference --irradiance` and by `vlf bake`.
+`vlf reference --irradiance` and by `vlf bake`. `lights` does what `images` does under punctual lights
+and skies, and holds bakes against the same.
 
 Every difference is divided by the standard error of both sides. Fails (exit code 1) if a |z| is
 above what chance allows among so many, or if their mean square is. Exit code 77: no Mitsuba.
@@ -91,6 +93,12 @@ def check_irradiance(arguments):
         return irradiance.check(arguments, folder)
 
 
+def check_lights(arguments):
+    import lights
+    with tempfile.TemporaryDirectory() as folder:
+        return lights.check(arguments, folder, region_sums, BATCHES)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
@@ -105,9 +113,16 @@ def main():
     texels = modes.add_parser("irradiance", help="irradiance of texels")
     texels.add_argument("--vlf", required=True, help="the program")
     texels.add_argument("--scenes", nargs="*", help="only these of the scenes")
+    lights = modes.add_parser("lights", help="pictures under punctual lights and skies")
+    lights.add_argument("--vlf", required=True, help="the program")
+    lights.add_argument("--scenes", nargs="*", help="only these of the cases")
+    lights.add_argument("--spp", type=int, default=1024, help="samples per pixel [1024]")
+    lights.add_argument("--width", type=int, default=64)
+    lights.add_argument("--height", type=int, default=48)
     arguments = parser.parse_args()
     mi.set_variant(arguments.variant)
-    agrees = check_images(arguments) if arguments.mode == "images" else check_irradiance(arguments)
+    checks = {"images": check_images, "irradiance": check_irradiance, "lights": check_lights}
+    agrees = checks[arguments.mode](arguments)
     sys.exit(0 if agrees else 1)
 
 

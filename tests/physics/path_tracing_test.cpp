@@ -74,6 +74,19 @@ bool anywhere(std::size_t) {
     return true;
 }
 
+/// Bluish, darker towards the ground, with a small sun towards the front and the left.
+Environment gradientSky() {
+    Environment e;
+    e.radiance = {0.8f, 1, 1.2f};
+    e.picture = Image(256, 128);
+    for (int y = 0; y < 128; ++y)
+        for (int x = 0; x < 256; ++x)
+            e.picture.at(x, y) = Vec3(y < 64 ? 1 - 0.01f * static_cast<float>(y) : 0.15f);
+    for (int y = 42; y < 44; ++y)
+        for (int x = 16; x < 18; ++x) e.picture.at(x, y) = Vec3(600);
+    return e;
+}
+
 BakeParams standardTransport(double texels) {
     BakeParams p = presetParams("standard");
     p.texelBudget = texels;
@@ -123,6 +136,54 @@ TEST(PathTracing, AgreesByTheCaustics) {
     std::printf("caustic: relative RMSE %.3f %%, bias %+.3f %% (+- %.3f %%)\n",
                 100 * e.relativeRmse, 100 * e.bias, 100 * e.biasError);
     EXPECT_LT(std::abs(e.bias), 3 * e.biasError + 0.01);
+}
+
+TEST(PathTracing, AgreesUnderASkyWithASunThroughAnOpenFront) {
+    Scene scene = smallCornell();
+    scene.environment = gradientSky();
+    const SolvedScene s(scene, standardTransport(20000));
+    expectAgreement("open front", errorAgainstPathTracing(s, anywhere), 0.03, 0.004);
+}
+
+TEST(PathTracing, AgreesUnderPunctualLights) {
+    Scene scene = smallCornell();
+    for (Material& m : scene.materials) m.emission = Vec3(0);
+    PunctualLight light;
+    light.position = {0.3f, 0.8f, 0.4f};
+    light.intensity = {1, 2, 3};
+    scene.lights.push_back(light);
+    light.kind = PunctualKind::spot;
+    light.position = {0.5f, 0.5f, 2};
+    light.direction = glm::normalize(Vec3(0.2f, -0.3f, -1));
+    light.innerCone = 0.1f;
+    light.outerCone = 0.35f;
+    light.intensity = Vec3(20);
+    scene.lights.push_back(light);
+    light.kind = PunctualKind::directional;
+    light.direction = glm::normalize(Vec3(-0.4f, -0.5f, -1));
+    light.intensity = {4, 3, 2};
+    scene.lights.push_back(light);
+    const SolvedScene s(scene, standardTransport(20000));
+    expectAgreement("punctual", errorAgainstPathTracing(s, anywhere), 0.03, 0.004);
+}
+
+TEST(PathTracing, AgreesBesideRoughMirrorsUnderASkyWithASunAndAPoint) {
+    SceneBuilder b;
+    b.quad({-1, 0, -1}, {0, 0, 2}, {2, 0, 0}, b.material("floor", Vec3(0.6f)));
+    b.quad({-1, 0, -1}, {2, 0, 0}, {0, 1, 0}, b.material("rough", Vec3(0.1f), Vec3(0), Vec3(0.7f)));
+    b.scene().materials.back().roughness = 0.3f;
+    b.scene().environment = gradientSky();
+    PunctualLight light;
+    light.position = {0.4f, 0.6f, 0.3f};
+    light.intensity = Vec3(0.5f);
+    b.scene().lights.push_back(light);
+    BakeParams p = standardTransport(8000);
+    p.glossDirections = 0;
+    const SolvedScene s(b.scene(), p);
+    const auto onFloor = [&](std::size_t i) {
+        return s.state.unwrap.texelChart[i] == s.state.unwrap.triangleCharts[0].front;
+    };
+    expectAgreement("rough mirror outside", errorAgainstPathTracing(s, onFloor), 0.03, 0.004);
 }
 
 TEST(PathTracing, AgreesOnARoundBodyOfFewFacets) {

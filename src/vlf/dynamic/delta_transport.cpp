@@ -44,6 +44,11 @@ struct Scratch {
     Sights sights;
 };
 
+/// The smooth part of the environment.
+bool isOutside(const Sight& sight) {
+    return !sight.emissionApart && sight.triangle == kNoTriangle;
+}
+
 void findHidden(const SightObjects& objects, std::vector<InstanceHit>& hits, Views& views) {
     views.hidden.assign(views.rays.size(), std::numeric_limits<float>::infinity());
     if (!objects.rays || objects.lit.size() < 2) return;
@@ -127,7 +132,8 @@ class DeltaLines::Block {
                 s_.shown[s_.mirrors[k]] += s_.reflectance[k] * room_.radiance[s_.sights.texel[k]];
         for (const Sight& sight : s_.sights.others)
             s_.shown[s_.mirrors[sight.ray]] += s_.reflectance[sight.ray] * sight.throughput *
-                                               diffuseRadiance(sight, room_.radiance, {});
+                                               (diffuseRadiance(sight, room_.radiance, {}) +
+                                                (isOutside(sight) ? sight.emission : Vec3(0)));
     }
 
     void addEnds(const Views& seen, const Views& lost, const std::vector<LineEnd>& objectEnds,

@@ -49,11 +49,15 @@ EmitterPoints spreadPoints(const Scene& scene, const LightSources& sources, int 
                            int pattern) {
     EmitterPoints emitters;
     emitters.withImages = sources.images.size() <= sources.lights.size() + kMaxImages;
-    const int each = std::max(1, count / std::max(1, static_cast<int>(sources.lights.size())));
+    const auto surfaces =
+        std::count_if(sources.lights.begin(), sources.lights.end(),
+                      [](const Light& light) { return light.kind == LightKind::surface; });
+    const int each = std::max(1, count / std::max(1, static_cast<int>(surfaces)));
     for (std::uint32_t i = 0; i < sources.images.size(); ++i) {
         const LightImage& image = sources.images[i];
         if (image.depth > 0 && !emitters.withImages) continue;
         const Light& light = sources.lights[image.light];
+        if (light.kind != LightKind::surface) continue;
         const int points = image.depth == 0 ? each : std::max(1, each / 4);
         RandomStream random(static_cast<std::uint64_t>(pattern), i);
         const Vec2 shift = random.next2();

@@ -35,9 +35,9 @@ struct EmitterPoints {
     bool withImages = false;  ///< those of LightSources are among them
 };
 
-/// About `count` points, spread over each emitter in proportion to emitted power: the same number
-/// on each, and one at least. Images have a quarter as many; where there are more than 64, none.
-/// Another `pattern` gives other points.
+/// About `count` points, spread over each emitting surface in proportion to emitted power: the same
+/// number on each, and one at least. Images have a quarter as many; where there are more than 64,
+/// none. Another `pattern` gives other points.
 EmitterPoints spreadPoints(const Scene& scene, const LightSources& sources, int count, int pattern);
 
 /// Solid angle (steradian) of triangle abc as seen from p (Van Oosterom and Strackee 1983).

@@ -199,7 +199,8 @@ void GatherSights::pickDirections(const GatherPlan& plan, const Vec3& centre, in
         if (sights.texel[d] != kNoTexel) chances_[d] = luminance(room.radiance[sights.texel[d]]);
     for (const Sight& sight : sights.others)
         chances_[sight.ray] +=
-            luminance(sight.throughput * diffuseRadiance(sight, room.radiance, objects.lit));
+            luminance(sight.throughput * (diffuseRadiance(sight, room.radiance, objects.lit) +
+                                          (sight.emissionApart ? Vec3(0) : sight.emission)));
     float sum = 0;
     for (const float c : chances_) sum += c;
     const auto directions = static_cast<float>(chances_.size());

@@ -3,6 +3,7 @@
 #include "vlf/field/direction_set.h"
 #include "vlf/math/random.h"
 #include "vlf/math/sampling.h"
+#include "vlf/trace/shadow_ray.h"
 
 #include <algorithm>
 #include <cmath>
@@ -97,6 +98,20 @@ Vec3 radianceOf(const InstanceHit& found, const Vec3& direction, std::span<const
     return radiance;
 }
 
+/// Beams that stand for the bright part of a sky.
+std::vector<LightBeam> skyBeams(const Sky& sky, int count, const Vec2& shift) {
+    std::vector<LightBeam> beams;
+    for (int k = 0; k < count; ++k) {
+        const Sky::Sample sample = sky.sample(r2Point(static_cast<std::uint32_t>(k), shift));
+        if (!(sample.density > 0)) continue;
+        LightBeam beam;
+        beam.toLight = sample.direction;
+        beam.irradiance = sample.bright / (sample.density * static_cast<float>(count));
+        beams.push_back(beam);
+    }
+    return beams;
+}
+
 bool any(const SightObjects* objects) {
     return objects && objects->rays && !objects->rays->empty();
 }
@@ -142,6 +157,8 @@ IncidentLightFinder::Pattern IncidentLightFinder::makePattern(const Scene& scene
     }
     pattern.weights = fittingWeights(pattern.directions, solidAngles);
     pattern.emitters = spreadPoints(scene, sources, emitterPoints, number);
+    if (sources.sky && sources.sky->sky.hasBright())
+        pattern.sky = skyBeams(sources.sky->sky, emitterPoints, random.next2());
     return pattern;
 }
 
@@ -168,8 +185,10 @@ void IncidentLightFinder::look(const Pattern& pattern, std::span<const Vec3> rad
         if (!scratch.hits.empty()) scratch.hits[i] = {};
     }
     for (const Sight& sight : scratch.sights.others) {
-        const bool apart = emitters_ != IncidentEmitters::met && sight.emissionApart &&
-                           (allImages || !sight.inMirror);
+        const bool sky = sight.triangle == kNoTriangle;
+        const bool apart =
+            sight.emissionApart &&
+            (sky || (emitters_ != IncidentEmitters::met && (allImages || !sight.inMirror)));
         Vec3 light = diffuseRadiance(sight, radiance, {});
         if (!apart) light += sight.emission;
         scratch.seen[sight.ray] += sight.throughput * light;
@@ -209,6 +228,13 @@ void IncidentLightFinder::addEmitters(const Vec3& point, const Pattern& pattern,
             }
         }
     }
+    findPassed(body, scratch);
+    for (std::size_t i = 0; i < scratch.rays.size(); ++i)
+        if (!scratch.blocked[i]) add(scratch.points[i], scratch.passed[i]);
+}
+
+/// Which of scratch.rays something is in the way of, and what panes let pass of the others.
+void IncidentLightFinder::findPassed(const Body& body, Scratch& scratch) const {
     scratch.passed.resize(scratch.rays.size());
     rays_.transmittance(scratch.rays, scratch.passed);
     scratch.blocked.clear();
@@ -220,8 +246,24 @@ void IncidentLightFinder::addEmitters(const Vec3& point, const Pattern& pattern,
         for (std::size_t i = 0; i < scratch.rays.size(); ++i)
             scratch.blocked[i] |= scratch.blockedByObjects[i];
     }
-    for (std::size_t i = 0; i < scratch.rays.size(); ++i)
-        if (!scratch.blocked[i]) add(scratch.points[i], scratch.passed[i]);
+}
+
+/// What punctual lights and the bright part of the sky send, straight to the point.
+void IncidentLightFinder::addBeams(const Vec3& point, const Pattern& pattern, const Body& body,
+                                   Scratch& scratch, Sh<Vec3>& light) const {
+    scratch.beams = pattern.sky;
+    for (const PunctualLight& punctual : room_.sources.punctual)
+        scratch.beams.push_back(beamOf(punctual, point, rays_.epsilon()));
+    if (scratch.beams.empty()) return;
+    scratch.rays.clear();
+    for (const LightBeam& beam : scratch.beams)
+        scratch.rays.push_back(shadowRay(point, beam, rays_.epsilon()));
+    findPassed(body, scratch);
+    for (std::size_t i = 0; i < scratch.beams.size(); ++i) {
+        if (scratch.blocked[i]) continue;
+        const Sh<float> basis = shBasis(scratch.beams[i].toLight);
+        for (int f = 0; f < kMaxShCount; ++f) light[f] += basis[f] * scratch.passed[i] * scratch.beams[i].irradiance;
+    }
 }
 
 /// Whether the way to the image meets exactly its mirrors, whose reflectances it is multiplied by.
@@ -254,6 +296,7 @@ Sh<Vec3> IncidentLightFinder::sample(const Vec3& point, const Pattern& pattern,
     for (std::size_t i = 0; i < pattern.directions.size(); ++i)
         for (int f = 0; f < kMaxShCount; ++f) light[f] += pattern.weights[i][f] * scratch.seen[i];
     if (emitters_ == IncidentEmitters::sampled) addEmitters(point, pattern, body, scratch, light);
+    if (emitters_ != IncidentEmitters::none) addBeams(point, pattern, body, scratch, light);
     return light;
 }
 

@@ -8,6 +8,7 @@
 #include "vlf/dynamic/room_texels.h"
 #include "vlf/dynamic/sight.h"
 #include "vlf/math/spherical_harmonics.h"
+#include "vlf/scene/light_beam.h"
 #include "vlf/trace/ray_instances.h"
 
 #include <array>
@@ -27,7 +28,7 @@ struct IncidentSettings {
     int lines = 129;       ///< of the direction set at the middle of a small object
     int cornerLines = 33;  ///< at each corner of a large one
     IncidentEmitters emitters = IncidentEmitters::sampled;
-    int emitterPoints = 16;       ///< of all emitters, at the middle
+    int emitterPoints = 16;       ///< of all emitters, and of the bright sky, at the middle
     int cornerEmitterPoints = 8;  ///< at each corner
     float largeFrom = 0.02f;      ///< radius of a large object, relative to the room's
 };
@@ -61,6 +62,7 @@ class IncidentLightFinder {
         std::vector<Vec3> seen;
         std::vector<float> solidAngles;
         std::vector<std::uint32_t> points;
+        std::vector<LightBeam> beams;
     };
 
     /// For an object with this box, in its own space, at `pose`. `radiance` is what the room's
@@ -78,6 +80,7 @@ class IncidentLightFinder {
         std::vector<Vec3> directions;
         std::vector<Sh<float>> weights;  ///< of what is seen along them, in each coefficient
         EmitterPoints emitters;
+        std::vector<LightBeam> sky;  ///< of its bright part
     };
     /// What is to be left out: an object that is about the point.
     struct Body {
@@ -94,6 +97,9 @@ class IncidentLightFinder {
               Scratch& scratch) const;
     void addEmitters(const Vec3& point, const Pattern& pattern, const Body& body, Scratch& scratch,
                      Sh<Vec3>& light) const;
+    void addBeams(const Vec3& point, const Pattern& pattern, const Body& body, Scratch& scratch,
+                  Sh<Vec3>& light) const;
+    void findPassed(const Body& body, Scratch& scratch) const;
     bool isSeenOverMirrors(const Vec3& point, const EmitterPoint& emitter, const LightImage& image,
                            Vec3& throughput) const;
     Vec3 cornerPoint(const Bounds& box, const Pose& pose, int corner) const;

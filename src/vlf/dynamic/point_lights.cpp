@@ -3,6 +3,7 @@
 #include "vlf/base/parallel.h"
 #include "vlf/dynamic/emitter_points.h"
 #include "vlf/propagate/light_gatherer.h"
+#include "vlf/scene/light_beam.h"
 
 #include <algorithm>
 #include <limits>
@@ -18,6 +19,7 @@ constexpr float kLeastAlike = 0.5f;    // length of a mean normal that still is 
 constexpr std::size_t kAmbientTexels = 1024;
 constexpr int kAmbientSamples = 16;
 constexpr std::size_t kVerticesPerBlock = 256;
+constexpr float kFar = 200;  // radii of the room
 
 /// A piece of an emitter; of a body that shines in all directions, the normal is zero.
 struct Piece {
@@ -135,6 +137,48 @@ PointLight lightOf(const Cluster& c, const std::vector<Piece>& pieces, float eps
     return light;
 }
 
+struct PowerfulLight {
+    PointLight light;
+    float power;  ///< luminous, on the room
+};
+
+/// From infinity, along a direction, with irradiance across it.
+PowerfulLight distantLight(const Vec3& toLight, const Vec3& irradiance, const FieldFrame& room) {
+    const float distance = kFar * room.radius;
+    PointLight light;
+    light.position = room.centre + distance * toLight;
+    light.intensity = irradiance * distance * distance;
+    return {light, luminance(irradiance) * kPi * room.radius * room.radius};
+}
+
+PowerfulLight lightOf(const PunctualLight& source, const FieldFrame& room, float epsilon) {
+    if (source.kind == PunctualKind::directional)
+        return distantLight(-source.direction, source.intensity, room);
+    PointLight light;
+    light.position = source.position;
+    light.intensity = source.intensity;
+    light.radius = 2 * epsilon;
+    if (source.kind == PunctualKind::spot) {
+        const float outer = std::cos(source.outerCone);
+        light.normal = source.direction;
+        light.cone = {outer, 1 / std::max(std::cos(source.innerCone) - outer, 1e-6f)};
+    }
+    return {light, luminance(powerOf(source))};
+}
+
+PowerfulLight lightOf(const SkyLight& sky, const FieldFrame& room) {
+    Vec3 mean(0);
+    for (const Vec3& share : sky.shares) mean += share;
+    mean /= static_cast<float>(SkyLight::kShares);
+    return distantLight(sky.axis, glm::length(mean) * sky.sky.brightFlux(), room);
+}
+
+Piece pieceOf(const PunctualLight& light) {
+    const Vec3 power = powerOf(light);
+    return {light.position, light.kind == PunctualKind::spot ? light.direction : Vec3(0), power,
+            luminance(power), 0};
+}
+
 Vec3 meanIndirect(const Scene& scene, const RayScene& rays, const RoomTexels& room,
                   const IrradianceAtlas& atlas) {
     const std::size_t count = room.unwrap.texels.size();
@@ -174,11 +218,10 @@ void addLight(const PointLight& light, const ObjectMesh& mesh, const Pose& pose,
         const Vec3 way = light.position - origin;
         const float distance = glm::length(way);
         const float cosine = glm::dot(normal, way) / distance;
-        const float lightCosine =
-            light.normal == Vec3(0) ? 1 : -glm::dot(light.normal, way) / distance;
-        if (!(cosine > 0 && lightCosine > 0) || distance <= light.radius) continue;
+        const float lightFactor = light.factor(-way / distance);
+        if (!(cosine > 0 && lightFactor > 0) || distance <= light.radius) continue;
         rays.push_back({origin, way, 0, 1 - light.radius / distance});
-        factors.push_back(cosine * lightCosine / (distance * distance + light.area / kPi));
+        factors.push_back(cosine * lightFactor / (distance * distance + light.area / kPi));
         lit.push_back(i);
     }
     blocked.resize(rays.size());
@@ -193,13 +236,25 @@ PointLighting estimatePointLights(const Scene& scene, const RayScene& rays, cons
                                   const IrradianceAtlas& atlas, int maxLights) {
     PointLighting lighting;
     lighting.ambient = meanIndirect(scene, rays, room, atlas);
+    const auto most = static_cast<std::size_t>(std::max(1, maxLights));
+    std::vector<PowerfulLight> lights;
     std::vector<Piece> pieces = emitterPieces(scene, room.sources);
-    if (pieces.empty()) return lighting;
-    std::vector<Cluster> clusters =
-        cluster(pieces, room.frame.radius, static_cast<std::size_t>(std::max(1, maxLights)));
-    std::stable_sort(clusters.begin(), clusters.end(),
-                     [](const Cluster& a, const Cluster& b) { return a.weight > b.weight; });
-    for (const Cluster& c : clusters) lighting.lights.push_back(lightOf(c, pieces, rays.epsilon()));
+    const bool themselves = scene.lights.size() < most;
+    for (const PunctualLight& light : scene.lights)
+        if (themselves || light.kind == PunctualKind::directional)
+            lights.push_back(lightOf(light, room.frame, rays.epsilon()));
+        else
+            pieces.push_back(pieceOf(light));
+    if (room.sources.sky && room.sources.sky->sky.hasBright())
+        lights.push_back(lightOf(*room.sources.sky, room.frame));
+    const std::size_t left = most > lights.size() ? most - lights.size() : 1;
+    if (!pieces.empty())
+        for (const Cluster& c : cluster(pieces, room.frame.radius, left))
+            lights.push_back({lightOf(c, pieces, rays.epsilon()), c.weight});
+    std::stable_sort(
+        lights.begin(), lights.end(),
+        [](const PowerfulLight& a, const PowerfulLight& b) { return a.power > b.power; });
+    for (const PowerfulLight& l : lights) lighting.lights.push_back(l.light);
     return lighting;
 }
 

@@ -10,6 +10,7 @@ Scene posedScene(const Scene& room, std::span<const DynamicObject> objects) {
         for (Vec3& p : copy.positions) p = object.pose.point(p);
         for (Vec3& n : copy.normals) n = object.pose.direction(n);
         copy.cameras.clear();
+        copy.lights.clear();  // an object has none
         append(posed, copy);
     }
     return posed;

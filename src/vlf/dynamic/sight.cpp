@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
+#include <limits>
 #include <utility>
 
 namespace vlf {
@@ -62,6 +64,25 @@ void SightTracer::meet(const Path& path, const Ray& ray, std::size_t i) {
         meetObject(path, ray, memory_.objectHits[i]);
     else if (memory_.hits[i])
         meetRoom(path, ray, memory_.hits[i]);
+    else if (room_.sources.sky && !std::isfinite(ray.tMax))
+        leave(path, ray);
+}
+
+/// Only the bright part of the environment is sampled as direct light.
+void SightTracer::leave(const Path& path, const Ray& ray) {
+    const Sky& sky = room_.sources.sky->sky;
+    const Vec3 direction = glm::normalize(ray.direction);
+    Sight sight;
+    sight.ray = path.ray;
+    sight.inMirror = path.reflections > 0;
+    sight.distance = std::numeric_limits<float>::infinity();
+    sight.throughput = path.throughput;
+    sight.emission = sky.smooth(direction);
+    sight.emissionApart = false;
+    if (sight.emission != Vec3(0)) sights_->others.push_back(sight);
+    sight.emission = sky.bright(direction);
+    sight.emissionApart = room_.sources.covers(path.reflections, path.planarOnly);
+    if (sight.emission != Vec3(0)) sights_->others.push_back(sight);
 }
 
 void SightTracer::meetRoom(const Path& path, const Ray& ray, const Hit& hit) {

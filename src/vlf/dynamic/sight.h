@@ -14,7 +14,7 @@ namespace vlf {
 inline constexpr std::uint32_t kNoObject = 0xffffffffu;
 
 /// A surface that reflects diffusely, at the end of a ray or on its way, where more is to be said
-/// of it than which texel of the room it is.
+/// of it than which texel of the room it is; or the environment, which only emits.
 struct Sight {
     std::uint32_t ray = 0;
     std::uint32_t texel = kNoTexel;    ///< covered texel of the room; kNoTexel: an object or black
@@ -27,7 +27,7 @@ struct Sight {
     float distance = 0;         ///< along the way, over mirrors, in lengths of the ray's direction
     Vec3 throughput{1};         ///< of the mirrors on the way
     Vec3 emission{0};           ///< radiance emitted there, W·m⁻²·sr⁻¹
-    bool emissionApart = true;  ///< the direct light of the room's emitters has it already
+    bool emissionApart = true;  ///< the room's direct light has it already
 };
 
 /// The objects that rays may meet, in the order of `rays`' instances.
@@ -38,7 +38,8 @@ struct SightObjects {
 };
 
 /// What rays have met. A ray has one surface, none if it meets nothing or the inside of a solid, or
-/// several where mirrors on its way reflect diffusely, too.
+/// several where mirrors on its way reflect diffusely, too. A ray without an end that meets nothing
+/// sees the environment: its smooth part, and its bright part as another sight.
 struct Sights {
     std::vector<std::uint32_t> texel;  ///< by ray: met at once, covered, no emitter; or kNoTexel
     std::vector<float> distance;       ///< by ray, of these
@@ -81,6 +82,7 @@ class SightTracer {
     void meetRoom(const Path& path, const Ray& ray, const Hit& hit);
     void passGlass(Path path, const Ray& ray, const Hit& hit, bool front);
     void meetObject(const Path& path, const Ray& ray, const InstanceHit& hit);
+    void leave(const Path& path, const Ray& ray);
     void reflect(Path path, const Ray& ray, float t, const MirrorPoint& mirror);
     std::uint32_t atlasTexel(std::uint32_t chart, const Vec3& position) const;
 

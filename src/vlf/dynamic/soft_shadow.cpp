@@ -204,7 +204,8 @@ class ShadowedTexel {
         tracer_.trace(memory_.queue, memory_.sights);
         Vec3 sum(0);
         for (const Sight& sight : memory_.sights.others) {
-            if (sight.inMirror || sight.emission == Vec3(0)) continue;
+            if (sight.inMirror || sight.emission == Vec3(0) || sight.triangle == kNoTriangle)
+                continue;
             const std::uint32_t light = room_.triangles[sight.triangle].light;
             if (light != kNoLight && memory_.large[light] &&
                 sight.distance > memory_.hits[sight.ray].hit.t)

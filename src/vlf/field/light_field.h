@@ -17,7 +17,8 @@ namespace vlf {
 
 /// Light power balance of a bake, W per channel.
 struct EnergyReport {
-    Vec3 emitted{0};   ///< by all emitters
+    Vec3 emitted{0};   ///< by all emitters and punctual lights within the scene; what comes from
+                       ///< outside (environment, directional lights) and meets any of it
     Vec3 absorbed{0};  ///< by surfaces
     Vec3 unshot{0};    ///< still under way when the bounces stopped
     Vec3 escaped{0};   ///< left an open scene: emitted - absorbed - unshot

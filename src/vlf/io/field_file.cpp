@@ -16,11 +16,11 @@ namespace vlf {
 
 namespace {
 
-constexpr std::array<std::string_view, 21> kChunks = {
+constexpr std::array<std::string_view, 24> kChunks = {
     "summary",       "meshes",          "materials",  "cameras",   "textures",  "pixels.srgb8",
     "pixels.linear", "positions",       "normals",    "uvs",       "triangles", "bake",
     "charts",        "triangle charts", "irradiance", "subfields", "tile rows", "radiance",
-    "gloss subfields", "gloss tile rows", "gloss"};
+    "gloss subfields", "gloss tile rows", "gloss", "lights", "environment", "sky pixels"};
 
 /// The chunk "summary": the sizes of all arrays, and where the field lies.
 struct Summary {
@@ -131,7 +131,9 @@ FieldFileInfo readFieldInfo(const std::string& path) {
                        .frame = summary.frame,
                        .record = {},
                        .meshes = {},
-                       .cameras = {}};
+                       .cameras = {},
+                       .lights = readLights(file),
+                       .environment = readEnvironmentInfo(file)};
     for (const Chunk& c : file.chunks())
         info.chunks.push_back({c.name, c.storedBytes(), c.memoryBytes(), c.blocks.size()});
     readRecord(file, "bake", info.record);

@@ -56,6 +56,14 @@ struct ChunkInfo {
     std::uint64_t blocks = 0;
 };
 
+/// A scene's environment without its pixels.
+struct EnvironmentInfo {
+    std::string name;                    ///< of the picture's file
+    Vec3 radiance{0};                    ///< as in Environment
+    float turn = 0;                      ///< degrees
+    std::int32_t width = 0, height = 0;  ///< pixels; 0: the same all around
+};
+
 struct FieldFileInfo {
     std::uint32_t formatVersion = 0;
     std::uint64_t fileBytes = 0;
@@ -65,6 +73,8 @@ struct FieldFileInfo {
     BakeRecord record;
     std::vector<Mesh> meshes;
     std::vector<Camera> cameras;
+    std::vector<PunctualLight> lights;
+    EnvironmentInfo environment;
 };
 
 /// What is inside a field file, without loading field, geometry or textures. Throws like

@@ -68,6 +68,17 @@ void describe(S& s, Field<S, TextureRecord> t) {
     s(t.name, t.width, t.height, t.wrapU, t.wrapV, t.linear);
 }
 
+template <class S>
+void describe(S& s, Field<S, PunctualLight> l) {
+    s(l.name, l.kind, l.position, l.direction, l.intensity, l.innerCone, l.outerCone);
+}
+
+/// Environment without its pixels.
+template <class S>
+void describe(S& s, Field<S, EnvironmentInfo> e) {
+    s(e.name, e.radiance, e.turn, e.width, e.height);
+}
+
 /// A chunk that holds one record, or a list of them.
 template <class T>
 void addRecord(ChunkFileWriter& file, const std::string& name, const T& record) {

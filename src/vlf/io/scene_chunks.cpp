@@ -99,13 +99,70 @@ std::vector<Texture> readTextures(const ChunkFileReader& file) {
     return textures;
 }
 
+Grid<const Vec3> gridOf(const Environment& e) {
+    return {e.picture.pixels.data(), static_cast<std::uint64_t>(e.picture.width),
+            static_cast<std::uint64_t>(e.picture.height)};
+}
+
+void addEnvironment(ChunkFileWriter& file, const Environment& environment) {
+    if (environment.isBlack()) return;
+    addRecord(file, "environment", infoOf(environment));
+    std::vector<Grid<const Vec3>> grids;
+    if (!environment.isUniform()) grids.push_back(gridOf(environment));
+    addGrids<LinearCodec, Vec3>(file, "sky pixels", grids, [](const Vec3& v) {
+        return std::bit_cast<LinearCodec::Element>(v);
+    });
+}
+
+Environment readEnvironment(const ChunkFileReader& file) {
+    const EnvironmentInfo info = readEnvironmentInfo(file);
+    if (!file.has("environment")) return {};
+    if (info.width < 0 || info.height < 0 || info.width > kMaxImageSize ||
+        info.height > kMaxImageSize || (info.width == 0) != (info.height == 0))
+        throw InputError(file.where(file.chunk("environment")),
+                         "has a size outside 0 to 65536: damaged file, bake it again");
+    std::vector<GridSize> sizes;
+    if (info.width > 0)
+        sizes.push_back(
+            {static_cast<std::uint64_t>(info.width), static_cast<std::uint64_t>(info.height)});
+    const Chunk& chunk = gridChunk<LinearCodec>(file, "sky pixels", sizes);
+    Environment environment{info.name, info.radiance, {}, info.turn};
+    std::vector<Grid<Vec3>> grids;
+    if (info.width > 0) {
+        environment.picture = Image(info.width, info.height);
+        grids.push_back({environment.picture.pixels.data(), sizes[0].width, sizes[0].height});
+    }
+    readGrids<LinearCodec, Vec3>(file, chunk, grids, [](const LinearCodec::Element& code) {
+        return std::bit_cast<Vec3>(code);
+    });
+    return environment;
+}
+
 }  // namespace
+
+EnvironmentInfo readEnvironmentInfo(const ChunkFileReader& file) {
+    EnvironmentInfo info;
+    if (file.has("environment")) readRecord(file, "environment", info);
+    return info;
+}
+
+std::vector<PunctualLight> readLights(const ChunkFileReader& file) {
+    std::vector<PunctualLight> lights;
+    if (file.has("lights")) readRecord(file, "lights", lights);
+    return lights;
+}
+
+EnvironmentInfo infoOf(const Environment& e) {
+    return {e.name, e.radiance, e.turn, e.picture.width, e.picture.height};
+}
 
 void addScene(ChunkFileWriter& file, const Scene& scene) {
     addRecord(file, "meshes", scene.meshes);
     addRecord(file, "materials", scene.materials);
     addRecord(file, "cameras", scene.cameras);
     addTextures(file, scene.textures);
+    if (!scene.lights.empty()) addRecord(file, "lights", scene.lights);
+    addEnvironment(file, scene.environment);
     addArray(file, "positions", scene.positions);
     addArray(file, "normals", scene.normals);
     addArray(file, "uvs", scene.uvs);
@@ -118,6 +175,8 @@ Scene readScene(const ChunkFileReader& file, const FieldCounts& counts) {
     readRecord(file, "materials", scene.materials);
     readRecord(file, "cameras", scene.cameras);
     scene.textures = readTextures(file);
+    scene.lights = readLights(file);
+    scene.environment = readEnvironment(file);
     readArray(file, "positions", scene.positions, counts.vertices);
     readArray(file, "normals", scene.normals, counts.vertices);
     readArray(file, "uvs", scene.uvs, counts.vertices);

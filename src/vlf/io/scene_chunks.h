@@ -6,6 +6,12 @@
 
 namespace vlf {
 
+EnvironmentInfo infoOf(const Environment& environment);
+
+/// Of a file; none, and black, if it has none.
+std::vector<PunctualLight> readLights(const ChunkFileReader& file);
+EnvironmentInfo readEnvironmentInfo(const ChunkFileReader& file);
+
 void addScene(ChunkFileWriter& file, const Scene& scene);
 
 /// The scene of a file that announces these counts. Its indices are not yet checked.

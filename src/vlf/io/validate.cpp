@@ -111,6 +111,32 @@ void checkCameras(const Scene& scene, const std::string& path) {
     }
 }
 
+void checkLights(const Scene& scene, const std::string& path) {
+    const Checker check(path, "lights");
+    for (std::size_t i = 0; i < scene.lights.size(); ++i) {
+        const PunctualLight& l = scene.lights[i];
+        check(l.kind <= PunctualKind::directional, i, "is of an unknown kind");
+        check(isFinite(l.position) && isLight(l.intensity), i, "is not finite or negative");
+        check(isFinite(l.direction) && std::abs(glm::length(l.direction) - 1) < 1e-3f, i,
+              "has a direction that is not of length one");
+        check(l.innerCone >= 0 && l.innerCone <= l.outerCone && l.outerCone <= 1.571f, i,
+              "has cones that are none");
+    }
+}
+
+void checkEnvironment(const Environment& e, const std::string& path) {
+    const Checker check(path, "environment"), pixels(path, "sky pixels");
+    check(isLight(e.radiance) && std::isfinite(e.turn), "is not finite or negative");
+    check(e.picture.width >= 0 && e.picture.height >= 0 && e.picture.width <= kMaxImageSize &&
+              e.picture.height <= kMaxImageSize,
+          "has a size outside 0 to 65536");
+    const std::size_t count =
+        static_cast<std::size_t>(e.picture.width) * static_cast<std::size_t>(e.picture.height);
+    pixels(e.picture.pixels.size() == count, "has not as many pixels as its size says");
+    for (std::size_t i = 0; i < count; ++i)
+        pixels(isLight(e.picture.pixels[i]), i, "is not finite or negative");
+}
+
 bool isDirectionCount(int lines) {
     for (int n = 0; n <= 8; ++n)
         if (lines == 2 * (1 << 2 * n) + 1) return true;
@@ -144,6 +170,8 @@ void checkScene(const Scene& scene, const std::string& path) {
     checkMaterials(scene, path);
     checkTextures(scene, path);
     checkCameras(scene, path);
+    checkLights(scene, path);
+    checkEnvironment(scene.environment, path);
 }
 
 void checkCharts(const LightField& field, const Scene& scene, const std::string& path) {

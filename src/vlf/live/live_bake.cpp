@@ -4,6 +4,7 @@
 #include "vlf/base/parallel.h"
 #include "vlf/base/watched_files.h"
 #include "vlf/live/bake_ladder.h"
+#include "vlf/propagate/entering_light.h"
 #include "vlf/propagate/fill_atlas.h"
 #include "vlf/scene/import/import.h"
 #include "vlf/scene/scene_hash.h"
@@ -46,6 +47,7 @@ class LiveProgress : public Progress {
 IrradianceAtlas evenIrradiance(const BakeState& state) {
     Vec3 emitted(0);
     for (const Light& light : state.sources.lights) emitted += kPi * light.area * light.radiance;
+    emitted += emittedFlux(state.scene, state.rays, state.sources.sky.get());
     float absorbing = 0, whole = 0;  // m²
     for (std::size_t i = 0; i < state.absorptance.size(); ++i) {
         absorbing += state.unwrap.texelArea(i) * luminance(state.absorptance[i]);
@@ -185,7 +187,7 @@ class Watcher {
 
     void start(Scene scene, std::vector<std::string> warnings) {
         if (scene.cameras.empty()) scene.cameras.push_back(defaultCamera(scene));
-        if (!hasEmitter(scene))
+        if (!hasLight(scene))
             warnings.emplace_back("the scene has no emitter: everything will be black");
         baker_ = {};  // the bake before ends here
         board_.setFinished(nullptr);

@@ -3,6 +3,7 @@
 #include "vlf/base/error.h"
 #include "vlf/base/parallel.h"
 #include "vlf/math/microfacet.h"
+#include "vlf/propagate/entering_light.h"
 #include "vlf/propagate/fill_atlas.h"
 
 #include <algorithm>
@@ -85,6 +86,7 @@ EnergyReport energyBalance(const BakeState& state) {
     glm::dvec3 emitted(0), absorbed(0), reflected(0);
     for (const Light& light : state.sources.lights)
         emitted += glm::dvec3(light.radiance) * static_cast<double>(kPi * light.area);
+    emitted += glm::dvec3(emittedFlux(state.scene, state.rays, state.sources.sky.get()));
     for (std::size_t i = 0; i < state.irradiance.size(); ++i) {
         const glm::dvec3 flux =
             glm::dvec3(state.irradiance[i]) * static_cast<double>(state.unwrap.texelArea(i));

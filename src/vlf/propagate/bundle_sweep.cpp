@@ -34,14 +34,20 @@ struct Corners {
 };
 
 class Sweep {
+    using Float4 = float __attribute__((vector_size(16)));
+
   public:
     Sweep(const BundleFaces& faces, const ParallelSubfield& subfield, const TexelBuffer& radiance,
-          TexelBuffer& gathered, std::vector<MirrorSight>& sights, SweepScratch::Buffers& buffers)
+          TexelBuffer& gathered, std::vector<MirrorSight>& sights, SweepScratch::Buffers& buffers,
+          const OutsideRadiance& outside)
         : faces_(faces),
           subfield_(subfield),
           radiance_(radiance.data()),
           gathered_(gathered.data()),
           outside_(static_cast<std::uint32_t>(radiance.texelCount())),
+          ahead_(lightOf(outside.ahead)),
+          behind_(lightOf(outside.behind)),
+          lit_(maxComponent(outside.ahead) > 0 || maxComponent(outside.behind) > 0),
           sights_(sights),
           b_(buffers) {}
 
@@ -280,8 +286,10 @@ class Sweep {
         for (std::size_t x = rowBegin_; x < rowEnd_; x += hn::Lanes(du)) {
             const Uints first = hn::LoadU(du, &b_.fragment[x]);
             forEachSet(hn::And(isEntry(first), isFragment(first)), [&](std::size_t lane) {
+                const std::uint32_t texel = b_.fragment[x + lane] & kTexelMask;
                 b_.near[count] = outside_;
-                b_.far[count++] = b_.fragment[x + lane] & kTexelMask;
+                b_.far[count++] = texel;
+                if (lit_) add(texel, behind_);
             });
         }
         return count;
@@ -299,6 +307,7 @@ class Sweep {
                 const std::uint32_t seen = fars[x + lane];
                 b_.near[count] = nears[x + lane] & kTexelMask;
                 b_.far[count++] = seen == kNone ? outside_ : seen & kTexelMask;
+                if (lit_ && seen == kNone) add(nears[x + lane] & kTexelMask, ahead_);
             });
         }
         return count;
@@ -342,7 +351,15 @@ class Sweep {
         store4(toB, load4(toB) + fromA);
     }
 
-    using Float4 = float __attribute__((vector_size(16)));
+    /// Light from outside, whose sample is that of an exchange with the black entry for it.
+    HWY_INLINE void add(std::uint32_t texel, Float4 light) {
+        float* const to = gathered_ + 4 * static_cast<std::size_t>(texel);
+        store4(to, load4(to) + light);
+    }
+
+    static Float4 lightOf(const Vec3& radiance) {
+        return Float4{radiance.x, radiance.y, radiance.z, 0};
+    }
     static HWY_INLINE Float4 load4(const float* p) {
         Float4 v;
         std::memcpy(&v, p, sizeof v);
@@ -379,6 +396,8 @@ class Sweep {
     const float* radiance_;
     float* gathered_;
     std::uint32_t outside_;
+    Float4 ahead_, behind_;  // what is seen of the outside
+    bool lit_;               // whether it shines
     std::vector<MirrorSight>& sights_;
     SweepScratch::Buffers& b_;
     std::size_t rowBegin_ = 0, rowEnd_ = 0;  // cells of the row that hold fragments
@@ -387,8 +406,9 @@ class Sweep {
 
 std::uint64_t runSweep(const BundleFaces& faces, const ParallelSubfield& subfield,
                        const TexelBuffer& radiance, TexelBuffer& gathered,
-                       std::vector<MirrorSight>& sights, SweepScratch::Buffers& buffers) {
-    return Sweep(faces, subfield, radiance, gathered, sights, buffers).run();
+                       std::vector<MirrorSight>& sights, SweepScratch::Buffers& buffers,
+                       const OutsideRadiance& outside) {
+    return Sweep(faces, subfield, radiance, gathered, sights, buffers, outside).run();
 }
 
 const char* targetName() {
@@ -408,9 +428,10 @@ HWY_EXPORT(targetName);
 
 std::uint64_t sweepBundle(const BundleFaces& faces, const ParallelSubfield& subfield,
                           const TexelBuffer& radiance, TexelBuffer& gathered,
-                          std::vector<MirrorSight>& mirrorSights, SweepScratch& scratch) {
+                          std::vector<MirrorSight>& mirrorSights, SweepScratch& scratch,
+                          const OutsideRadiance& outside) {
     return HWY_DYNAMIC_DISPATCH(runSweep)(faces, subfield, radiance, gathered, mirrorSights,
-                                          scratch.buffers());
+                                          scratch.buffers(), outside);
 }
 
 std::vector<std::string> availableInstructionSets() {

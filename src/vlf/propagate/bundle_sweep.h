@@ -22,6 +22,12 @@ struct MirrorSight {
     bool forward;
 };
 
+/// Radiance that comes from outside the scene: what a ray along the direction sees, and one against
+/// it. W·m⁻²·sr⁻¹.
+struct OutsideRadiance {
+    Vec3 ahead{0}, behind{0};
+};
+
 /// Working memory of a sweep, reused from direction to direction by one thread.
 class SweepScratch {
   public:
@@ -38,13 +44,14 @@ class SweepScratch {
 };
 
 /// Sweeps one subfield. Adds to `gathered` what every texel hit sees in `radiance`: two hits that
-/// face each other exchange, both ways; a hit that sees out of the scene takes the outside's
-/// radiance; a hit that sees the back of a surface is no sample. Sights of mirrors are appended to
-/// `mirrorSights`, besides. Returns the number of exchanges.
-/// gathered, radiance: (atlas size + 1) entries. N of the subfield in [2, 16384].
+/// face each other exchange, both ways; a hit that sees out of the scene takes `outside`; a hit
+/// that sees the back of a surface is no sample. Sights of mirrors are appended to `mirrorSights`,
+/// besides. Returns the number of exchanges. gathered, radiance: (atlas size + 1) entries, the last
+/// of `radiance` being (0, 0, 0) with weight 1. N of the subfield in [2, 16384].
 std::uint64_t sweepBundle(const BundleFaces& faces, const ParallelSubfield& subfield,
                           const TexelBuffer& radiance, TexelBuffer& gathered,
-                          std::vector<MirrorSight>& mirrorSights, SweepScratch& scratch);
+                          std::vector<MirrorSight>& mirrorSights, SweepScratch& scratch,
+                          const OutsideRadiance& outside = {});
 
 /// Instruction sets this machine can run the sweeps on, best first, e.g. {"AVX2", "SSE2"}. The best
 /// is used unless useInstructionSet names another (throws InputError for one not in the list).

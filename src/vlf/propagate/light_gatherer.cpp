@@ -5,6 +5,7 @@
 #include "vlf/math/frame.h"
 #include "vlf/math/random.h"
 #include "vlf/math/sampling.h"
+#include "vlf/scene/light_beam.h"
 
 #include <algorithm>
 #include <array>
@@ -51,7 +52,8 @@ LightSample sampleLight(const Scene& scene, const Light& light, Vec2 u) {
 }
 
 bool hasFormFactor(const Light& light) {
-    return light.uniform && light.planar && light.triangles.size() <= kMaxAnalyticTriangles;
+    return light.kind == LightKind::surface && light.uniform && light.planar &&
+           light.triangles.size() <= kMaxAnalyticTriangles;
 }
 
 /// ∫ (n·ω)⁺ / π over the directions above the surface, n being the shading normal. Divided by
@@ -169,6 +171,8 @@ DirectEstimate LightGatherer::gatherTogether(const LightReceiver& r, float effec
 /// Roughly the unoccluded irradiance's luminance; zero only if it certainly is.
 float LightGatherer::likelyEffect(const LightReceiver& r, const LightImage& image) const {
     const Light& light = sources_.lights[image.light];
+    if (light.kind == LightKind::punctual) return likelyPunctual(r, image);
+    if (light.kind == LightKind::sky) return likelySky(r, image);
     const Vec3 toLight = image.imageFromWorld.point(light.centre) - r.centre;
     const float reach = light.radius + r.radius;
     const float squared = std::max(glm::dot(toLight, toLight), 0.25f * reach * reach);
@@ -183,6 +187,38 @@ float LightGatherer::likelyEffect(const LightReceiver& r, const LightImage& imag
     const float facing = std::clamp(cosReceiver + 0.5f * slack, 0.02f, 1.0f);
     const float emitting = std::clamp(cosLight + 0.5f * slack + spread, 0.02f, 1.0f);
     return luminance(light.radiance * image.throughput) * light.area * facing * emitting / squared;
+}
+
+/// As seen from the receiver's middle, or from anywhere in it where that may be more.
+float LightGatherer::likelyPunctual(const LightReceiver& r, const LightImage& image) const {
+    PunctualLight light = sources_.lights[image.light].punctual;
+    light.position = image.imageFromWorld.point(light.position);
+    light.direction = image.imageFromWorld.vector(light.direction);
+    const bool distant = light.kind == PunctualKind::directional;
+    const float reach = distant ? 0 : r.radius;
+    PunctualLight allRound = light;
+    if (!distant) allRound.kind = PunctualKind::point;
+    const LightBeam beam = beamOf(allRound, r.centre, std::max(0.5f * reach, rays_.epsilon()));
+    const float slack = distant ? 0 : std::min(1.0f, reach / std::max(beam.distance, 1e-20f));
+    const float cosine = glm::dot(r.normal, beam.toLight);
+    if (r.planar && cosine < (slack < 1 ? -slack : -2)) return 0;
+    float cone = 1;
+    if (light.kind == PunctualKind::spot && slack < 1) {
+        const float along = std::clamp(-glm::dot(light.direction, beam.toLight), -1.0f, 1.0f);
+        cone = coneFactor(light, std::cos(std::max(std::acos(along) - std::asin(slack), 0.0f)));
+    }
+    if (cone <= 0 || (image.depth > 0 && !mayBeSeenInMirror(r, image))) return 0;
+    const float facing = std::clamp(cosine + 0.5f * slack, 0.02f, 1.0f);
+    return luminance(beam.irradiance * image.throughput) * cone * facing;
+}
+
+float LightGatherer::likelySky(const LightReceiver& r, const LightImage& image) const {
+    if (image.depth > 0 && !mayBeSeenInMirror(r, image)) return 0;
+    const float throughput = luminance(image.throughput);
+    if (!r.planar) return throughput * sources_.sky->flux;
+    // A reflection is its own inverse, transposed: the normal as the light's own space has it.
+    return throughput *
+           sources_.sky->irradiance(glm::transpose(image.imageFromWorld.linear) * r.normal);
 }
 
 /// Whether lines from the receiver to the image may cross the rectangle of the first mirror.
@@ -221,6 +257,8 @@ LightGatherer::Point LightGatherer::surfacePoint(const LightReceiver& r, std::si
 /// Irradiance from one image by n samples.
 DirectEstimate LightGatherer::gather(const LightReceiver& r, const LightImage& image, int n,
                                      RandomStream& random) {
+    if (sources_.lights[image.light].kind != LightKind::surface)
+        return gatherBeams(r, image, n, random);
     if (hasFormFactor(sources_.lights[image.light])) return gatherByFormFactor(r, image, n, random);
     const float reach = nearReach(r, image);
     drawSamples(r, image, n, reach, random);
@@ -337,14 +375,77 @@ void LightGatherer::drawSamples(const LightReceiver& r, const LightImage& image,
             geometryTerm(p.position, p.shading, p.geometric, image.imageFromWorld.point(s.point),
                          image.imageFromWorld.vector(s.normal)) /
             s.density;
-        if (g <= 0) continue;
-        if (image.depth == 0) {
-            addShadowRay(p, s.point);
-            memory_.samples.push_back({g, s.radiance, Vec3(1)});
-        } else {
-            memory_.samples.push_back({g, s.radiance, followImage(p, image, s.point)});
-        }
+        if (g > 0) addSample(p, image, {s.point, false}, g, s.radiance);
     }
+}
+
+DirectEstimate LightGatherer::gatherBeams(const LightReceiver& r, const LightImage& image, int n,
+                                          RandomStream& random) {
+    const bool punctual = sources_.lights[image.light].kind == LightKind::punctual;
+    if (!punctual) {
+        drawSkySamples(r, image, n, random);
+        findVisible();
+        return meanOfSamples(n);
+    }
+    // At each point it is what it is: all of them are all there is to know.
+    const auto points = static_cast<int>(r.points.size());
+    drawPunctualSamples(r, image, std::min(n, points), random);
+    findVisible();
+    DirectEstimate estimate = meanOfSamples(std::min(n, points));
+    if (n >= points) estimate.variance = estimate.evenVariance = 0;
+    return estimate;
+}
+
+/// What comes from a punctual light to points of the texel.
+void LightGatherer::drawPunctualSamples(const LightReceiver& r, const LightImage& image, int n,
+                                        RandomStream& random) {
+    const PunctualLight& light = sources_.lights[image.light].punctual;
+    PunctualLight seen = light;
+    seen.position = image.imageFromWorld.point(light.position);
+    seen.direction = image.imageFromWorld.vector(light.direction);
+    const bool distant = light.kind == PunctualKind::directional;
+    const float rotation = random.next();
+    memory_.samples.clear();
+    memory_.shadowRays.clear();
+    for (int j = 0; j < n; ++j) {
+        const Point p = pointOf(r, j, n, rotation);
+        const LightBeam beam = beamOf(seen, p.position, rays_.epsilon());
+        const float cosine = glm::dot(p.shading, beam.toLight);
+        if (cosine <= 0 || glm::dot(p.geometric, beam.toLight) <= 0 ||
+            !(maxComponent(beam.irradiance) > 0))
+            continue;
+        addSample(p, image, {distant ? -light.direction : light.position, distant},
+                  cosine / lobe(p.shading, p.geometric), beam.irradiance);
+    }
+}
+
+/// Pairs of a point of the texel and a direction of the bright part of the sky.
+void LightGatherer::drawSkySamples(const LightReceiver& r, const LightImage& image, int n,
+                                   RandomStream& random) {
+    const Sky& sky = sources_.sky->sky;
+    const Vec2 shift = random.next2();
+    const float rotation = random.next();
+    memory_.samples.clear();
+    memory_.shadowRays.clear();
+    for (int j = 0; j < n; ++j) {
+        const Point p = pointOf(r, j, n, rotation);
+        const Sky::Sample s = sky.sample(r2Point(static_cast<std::uint32_t>(j), shift));
+        const Vec3 direction = image.imageFromWorld.vector(s.direction);
+        const float cosine = glm::dot(p.shading, direction);
+        if (cosine <= 0 || glm::dot(p.geometric, direction) <= 0 || !(s.density > 0)) continue;
+        addSample(p, image, {s.direction, true}, cosine / lobe(p.shading, p.geometric) / s.density,
+                  s.bright);
+    }
+}
+
+void LightGatherer::addSample(const Point& p, const LightImage& image, const Target& target,
+                              float geometry, const Vec3& radiance) {
+    Vec3 throughput(1);
+    if (image.depth == 0)
+        memory_.shadowRays.push_back(shadowRay(p.position + rays_.epsilon() * p.geometric, target));
+    else
+        throughput = followImage(p, image, target);
+    memory_.samples.push_back({geometry, radiance, throughput});
 }
 
 /// Traces the shadow rays of memory_.samples (none if they went by mirrors).
@@ -414,16 +515,19 @@ float LightGatherer::formFactor(const Point& p, const Light& light, const LightI
     return sum / lobe(p.shading, p.geometric);
 }
 
-void LightGatherer::addShadowRay(const Point& p, const Vec3& y) {
-    const Vec3 origin = p.position + rays_.epsilon() * p.geometric;
-    const Vec3 d = y - origin;
-    memory_.shadowRays.push_back({origin, d, 0, 1 - 2 * rays_.epsilon() / glm::length(d)});
+Ray LightGatherer::shadowRay(const Vec3& origin, const Target& target) const {
+    if (target.distant) return {origin, target.at};
+    const Vec3 d = target.at - origin;
+    return {origin, d, 0, 1 - 2 * rays_.epsilon() / glm::length(d)};
 }
 
-/// Whether the line from p to the image of y crosses the rectangles of all its mirrors, which
-/// most do not: cheaper than to trace it.
-bool LightGatherer::mayCrossMirrors(const Vec3& p, const LightImage& image, const Vec3& y) const {
-    Vec3 from = p, to = image.imageFromWorld.point(y);
+/// Whether the line from p to the image of the target crosses the rectangles of all its mirrors,
+/// which most do not: cheaper than to trace it.
+bool LightGatherer::mayCrossMirrors(const Vec3& p, const LightImage& image,
+                                    const Target& target) const {
+    Vec3 from = p;
+    Vec3 to = target.distant ? p + sources_.beyond * image.imageFromWorld.vector(target.at)
+                             : image.imageFromWorld.point(target.at);
     for (int k = 0; k < image.depth; ++k) {
         const Chart& mirror = unwrap_.charts[image.mirror[k]];
         const float plane = sources_.mirrorOffset[image.mirror[k]];
@@ -440,14 +544,16 @@ bool LightGatherer::mayCrossMirrors(const Vec3& p, const LightImage& image, cons
     return true;
 }
 
-/// Product of the reflectances of the image's mirrors if the light's point y is seen over
-/// exactly them, else zero.
-Vec3 LightGatherer::followImage(const Point& p, const LightImage& image, const Vec3& y) {
-    if (!mayCrossMirrors(p.position, image, y)) return Vec3(0);
+/// Product of the reflectances of the image's mirrors if the target is seen over exactly them, else
+/// zero.
+Vec3 LightGatherer::followImage(const Point& p, const LightImage& image, const Target& target) {
+    if (!mayCrossMirrors(p.position, image, target)) return Vec3(0);
     Vec3 throughput(1);
     bool blockedByExtra = false;
     Vec3 origin = p.position + rays_.epsilon() * p.geometric;
-    Vec3 direction = glm::normalize(image.imageFromWorld.point(y) - origin);
+    Vec3 direction = target.distant
+                         ? image.imageFromWorld.vector(target.at)
+                         : glm::normalize(image.imageFromWorld.point(target.at) - origin);
     for (int k = 0; k < image.depth; ++k) {
         const Hit hit = rays_.closest({origin, direction});
         if (!hit) return Vec3(0);
@@ -462,8 +568,7 @@ Vec3 LightGatherer::followImage(const Point& p, const LightImage& image, const V
             positionAt(scene_, hit.triangle, hit.barycentric) + rays_.epsilon() * (front ? n : -n);
         direction = glm::reflect(direction, n);
     }
-    const Vec3 d = y - origin;
-    const Ray last{origin, d, 0, 1 - 2 * rays_.epsilon() / glm::length(d)};
+    const Ray last = shadowRay(origin, target);
     if (extra_) blockedByExtra = blockedByExtra || extraBlocks(last);
     if (blockedByExtra == (counts_ == Counts::seen)) return Vec3(0);
     return rays_.occluded(last) ? Vec3(0) : throughput;

@@ -61,6 +61,11 @@ class LightGatherer {
     struct Point {
         Vec3 position, shading, geometric;
     };
+    /// Where light comes from: a place, or a unit direction of infinitely far.
+    struct Target {
+        Vec3 at;
+        bool distant;
+    };
     struct Sample {
         float geometry;
         Vec3 radiance, throughput;  // throughput: of mirrors or panes on the way; 0 if occluded
@@ -71,6 +76,8 @@ class LightGatherer {
     DirectEstimate gatherTogether(const LightReceiver& r, float effect, int n,
                                   RandomStream& random);
     float likelyEffect(const LightReceiver& r, const LightImage& image) const;
+    float likelyPunctual(const LightReceiver& r, const LightImage& image) const;
+    float likelySky(const LightReceiver& r, const LightImage& image) const;
     bool mayBeSeenInMirror(const LightReceiver& r, const LightImage& image) const;
     Point surfacePoint(const LightReceiver& r, std::size_t i) const;
     Point pointOf(const LightReceiver& r, int j, int n, float rotation) const;
@@ -84,14 +91,22 @@ class LightGatherer {
                          RandomStream& random);
     void drawSamples(const LightReceiver& r, const LightImage& image, int n, float reach,
                      RandomStream& random);
+    DirectEstimate gatherBeams(const LightReceiver& r, const LightImage& image, int n,
+                               RandomStream& random);
+    void drawPunctualSamples(const LightReceiver& r, const LightImage& image, int n,
+                             RandomStream& random);
+    void drawSkySamples(const LightReceiver& r, const LightImage& image, int n,
+                        RandomStream& random);
+    void addSample(const Point& p, const LightImage& image, const Target& target, float geometry,
+                   const Vec3& radiance);
     void findVisible();
     void keepBlockedByExtra();
     bool extraBlocks(const Ray& ray);
     float formFactor(const LightReceiver& r, const Light& light, const LightImage& image) const;
     float formFactor(const Point& p, const Light& light, const LightImage& image) const;
-    void addShadowRay(const Point& p, const Vec3& y);
-    bool mayCrossMirrors(const Vec3& p, const LightImage& image, const Vec3& y) const;
-    Vec3 followImage(const Point& p, const LightImage& image, const Vec3& y);
+    Ray shadowRay(const Vec3& origin, const Target& target) const;
+    bool mayCrossMirrors(const Vec3& p, const LightImage& image, const Target& target) const;
+    Vec3 followImage(const Point& p, const LightImage& image, const Target& target);
 
     const Scene& scene_;
     const RayScene& rays_;

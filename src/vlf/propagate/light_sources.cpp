@@ -12,6 +12,8 @@ namespace {
 constexpr std::size_t kMaxImages = 4096;
 constexpr std::size_t kMaxFaces = 6;  // charts of an emitting body that stay lights of their own
 
+constexpr float kFar = 1e3f;  // of the scene's radius: where lights at infinity are thought to be
+
 constexpr int kTextureLevels = 4;  // a textured emitting triangle is cut in 4^4
 
 /// Mean emitted radiance of a patch.
@@ -150,6 +152,33 @@ std::vector<Light> findLights(const Scene& scene, const Unwrap& unwrap) {
     return lights;
 }
 
+Light lightOf(const PunctualLight& punctual, const Sphere& scene) {
+    Light light;
+    light.kind = LightKind::punctual;
+    light.punctual = punctual;
+    light.punctual.name.clear();  // it is copied often
+    light.planar = false;
+    light.normal = punctual.direction;
+    light.centre = punctual.kind == PunctualKind::directional
+                       ? scene.centre - kFar * scene.radius * punctual.direction
+                       : punctual.position;
+    return light;
+}
+
+/// The bright part of the environment.
+Light skyLightOf(const SkyLight& sky, const Sphere& scene) {
+    Light light;
+    light.kind = LightKind::sky;
+    light.planar = false;
+    light.normal = -sky.axis;
+    light.normalCosine = sky.cosine;
+    const float distance = kFar * scene.radius;
+    light.centre = scene.centre + distance * sky.axis;
+    const float sine = std::sqrt(std::max(0.0f, 1 - sky.cosine * sky.cosine));
+    light.radius = (sky.cosine > 0 ? sine : 10) * distance;
+    return light;
+}
+
 Vec3 meanMirrorReflectance(const Scene& scene, const Material& material) {
     return material.mirrorTexture < 0
                ? material.mirror
@@ -201,6 +230,16 @@ Affine reflection(const Vec3& point, const Vec3& normal) {
 LightSources findLightSources(const Scene& scene, const Unwrap& unwrap) {
     LightSources sources;
     sources.lights = findLights(scene, unwrap);
+    const Sphere sphere = boundingSphere(scene);
+    sources.beyond = 8 * sphere.radius;
+    sources.punctual = scene.lights;
+    for (const PunctualLight& punctual : scene.lights)
+        sources.lights.push_back(lightOf(punctual, sphere));
+    if (!scene.environment.isBlack()) {
+        sources.sky = std::make_shared<const SkyLight>(makeSkyLight(scene.environment));
+        if (sources.sky->sky.hasBright())
+            sources.lights.push_back(skyLightOf(*sources.sky, sphere));
+    }
     sources.planarMirror.assign(unwrap.charts.size(), 0);
     sources.mirrorOffset.assign(unwrap.charts.size(), 0);
     sources.withinGlass.assign(unwrap.charts.size(), 0);

@@ -1,12 +1,15 @@
 #pragma once
-// The emitters as direct light sees them: one light per emitting chart side, and its virtual
-// images in planar mirrors (light reaching a diffuse surface by way of mirrors: caustics).
+// What direct light samples: one light per emitting chart side, the scene's punctual lights, the
+// bright part of its environment, and the virtual images of them in planar mirrors (light reaching
+// a diffuse surface by way of mirrors: caustics).
 
+#include "vlf/propagate/sky_light.h"
 #include "vlf/scene/scene.h"
 #include "vlf/unwrap/unwrap.h"
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace vlf {
@@ -34,8 +37,17 @@ struct LightPatch {
     std::array<Vec2, 3> corners;  ///< barycentric
 };
 
-/// An emitter: one side of the triangles of one chart, or of a curved body of many.
+enum class LightKind {
+    surface,   ///< one side of the triangles of one chart, or of a curved body of many
+    punctual,  ///< of Scene::lights
+    sky        ///< the bright part of the environment
+};
+
+/// A light. Of one that is infinitely far, `centre` and `radius` are a sphere far away that seems
+/// as wide from anywhere in the scene. Only surfaces have patches, radiance and area.
 struct Light {
+    LightKind kind = LightKind::surface;
+    PunctualLight punctual;
     std::vector<std::uint32_t> triangles;  ///< in ascending order
     std::vector<LightPatch> patches;
     std::vector<float> cumulativePower;  ///< luminous power up to and including patch i, W
@@ -62,10 +74,13 @@ struct LightImage {
 struct LightSources {
     std::vector<Light> lights;
     std::vector<LightImage> images;
+    std::vector<PunctualLight> punctual;     ///< the scene's
     std::vector<std::uint8_t> planarMirror;  ///< per chart: flat, a perfect mirror
     std::vector<std::uint8_t> withinGlass;   ///< per chart: the inside of a solid of glass
     std::vector<float> mirrorOffset;         ///< per chart: of a planar mirror's plane
     std::vector<std::uint32_t> mirrorChart;  ///< chart of each atlas texel of a mirror or glass
+    std::shared_ptr<const SkyLight> sky;     ///< the environment; null: there is none
+    float beyond = 0;       ///< metres, from anywhere in the scene to outside of it
     int imageDepth = 0;     ///< chains of up to this many planar mirrors are in `images`
     bool allApart = false;  ///< rays over mirrors are not to look for emission at all
 
@@ -74,8 +89,15 @@ struct LightSources {
     bool covers(int depth, bool allPlanar, bool behindPanes = false) const {
         return allApart || (allPlanar && depth <= (behindPanes ? 0 : imageDepth));
     }
+
+    /// What a ray over `depth` mirrors sees of the environment and direct light does not have.
+    Vec3 outside(const Vec3& direction, int depth, bool allPlanar, bool behindPanes) const {
+        if (!sky || allApart) return Vec3(0);
+        return covers(depth, allPlanar, behindPanes) ? sky->sky.smooth(direction) : sky->sky.radiance(direction);
+    }
 };
 
+/// Refers to the scene's environment.
 LightSources findLightSources(const Scene& scene, const Unwrap& unwrap);
 
 }  // namespace vlf

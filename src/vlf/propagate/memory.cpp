@@ -18,6 +18,7 @@ namespace {
 constexpr double kBase = 12e6, kPerTriangle = 255, kPerTexel = 400, kPerElement = 6.5,
                  kPerRay = 140;
 constexpr double kPerTexelRefined = 160;   // accumulators that are kept as they are
+constexpr double kPerSkyPixel = 36;        // itself, and twice what chooses by its brightness
 constexpr double kAtlasOverhead = 1.6;     // gutters, gaps, texels cut by edges
 constexpr double kRadianceOverhead = 1.25;  // whole tiles, guard band; measured for m = 4
 
@@ -39,6 +40,7 @@ double textureBytes(const Scene& scene) {
     double bytes = 0;
     for (const Texture& texture : scene.textures)
         bytes += static_cast<double>(texture.srgb8.size() + sizeof(Vec3) * texture.linear.size());
+    bytes += kPerSkyPixel * static_cast<double>(scene.environment.picture.pixels.size());
     return bytes;
 }
 

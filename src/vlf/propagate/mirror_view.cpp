@@ -3,6 +3,7 @@
 #include "vlf/math/microfacet.h"
 #include "vlf/propagate/ray_gather.h"
 #include "vlf/propagate/smooth_views.h"
+#include "vlf/trace/shadow_ray.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,6 +15,10 @@ namespace {
 
 constexpr float kMinThroughput = 1e-4f;
 constexpr float kMinCosine = 0.05f;
+constexpr std::size_t kFewLights = 8;
+// Of the longest distance: behind all of the scene, and no farther, so that a lookup that follows
+// lines of sight through the sky's image does not leave the mirror.
+constexpr float kSkyDistance = 0.25f;
 constexpr float kGrazing = 1e-4f;
 constexpr int kMinReflections = 4;
 constexpr float kShared = 0.5f;  // of a cell: closer points show the same in a rough mirror
@@ -185,6 +190,7 @@ void MirrorViewTracer::scatter(Path path, const RoughPoint& at, const GlossSampl
     const Vec2 shift = random.next2();
     const auto rays = static_cast<float>(samples.reflections);
     const int points = emitters_.empty() ? 0 : samples.emitters;
+    const int skies = sky_.hasBright() ? samples.emitters : 0;
     for (int k = 0; k < samples.reflections; ++k) {
         const Vec3 facet =
             sampleGgxNormal(at.roughness, at.toEye, r2Point(static_cast<std::uint32_t>(k), shift));
@@ -195,11 +201,66 @@ void MirrorViewTracer::scatter(Path path, const RoughPoint& at, const GlossSampl
         nextRays_.push_back({at.position + rays_.epsilon() * at.side, direction});
         Path& next = nextPaths_.emplace_back(path);
         next.throughput *= weight / rays;
-        if (points > 0)
-            next.raysPerPoint =
-                rays * ggxDensity(at.roughness, at.toEye, local) / static_cast<float>(points);
+        if (points > 0 || skies > 0)
+            next.raysPerPoint = rays * ggxDensity(at.roughness, at.toEye, local) /
+                                static_cast<float>(samples.emitters);
     }
     for (int k = 0; k < points; ++k) addPoint(path, at, samples, emitters_.sample(random));
+    for (int k = 0; k < skies; ++k) addSky(path, at, samples, sky_.sample(random.next2()));
+    if (!scene_.lights.empty()) addPunctual(path, at, samples.emitters, random);
+}
+
+/// Light of all punctual lights, or of some picked where there are many.
+void MirrorViewTracer::addPunctual(const Path& path, const RoughPoint& at, int picks,
+                                   RandomStream& random) {
+    const float nearest = rays_.epsilon();
+    if (scene_.lights.size() <= kFewLights) {
+        for (const PunctualLight& light : scene_.lights)
+            addBeam(path, at, beamOf(light, at.position, nearest), 1);
+        return;
+    }
+    for (int k = 0; k < picks; ++k) {
+        const PickedBeam picked = pickBeam(scene_.lights, at.position, nearest, random.next());
+        if (picked.probability > 0)
+            addBeam(path, at, picked.beam, 1 / (picked.probability * static_cast<float>(picks)));
+    }
+}
+
+void MirrorViewTracer::addBeam(const Path& path, const RoughPoint& at, const LightBeam& beam,
+                               float weight) {
+    if (glm::dot(at.side, beam.toLight) <= 0) return;
+    const Vec3 light = path.throughput * beam.irradiance * weight *
+                       ggxLobe(at.roughness, at.toEye, at.frame.toLocal(beam.toLight));
+    if (!(maxComponent(light) > 0)) return;
+    shadowRays_.push_back(
+        shadowRay(at.position + rays_.epsilon() * at.side, beam, rays_.epsilon()));
+    pointLights_.push_back({path.cell, light});
+}
+
+/// Light of the bright part of the environment, by the balance heuristic.
+void MirrorViewTracer::addSky(const Path& path, const RoughPoint& at, const GlossSamples& samples,
+                              const Sky::Sample& sample) {
+    if (glm::dot(at.side, sample.direction) <= 0) return;
+    const Vec3 local = at.frame.toLocal(sample.direction);
+    const float density =
+        static_cast<float>(samples.emitters) * sample.density +
+        static_cast<float>(samples.reflections) * ggxDensity(at.roughness, at.toEye, local);
+    const Vec3 light =
+        path.throughput * sample.bright * (ggxLobe(at.roughness, at.toEye, local) / density);
+    if (!(maxComponent(light) > 0)) return;
+    shadowRays_.push_back({at.position + rays_.epsilon() * at.side, sample.direction});
+    pointLights_.push_back({path.cell, light});
+}
+
+/// A ray leaves the scene.
+void MirrorViewTracer::leave(const Path& path, const Ray& ray) {
+    if (sky_.isBlack()) return;
+    Vec3 radiance = sky_.radiance(ray.direction);
+    if (path.raysPerPoint > 0 && sky_.hasBright()) {
+        const float byLobe = path.raysPerPoint / (path.raysPerPoint + sky_.density(ray.direction));
+        radiance -= (1 - byLobe) * sky_.bright(ray.direction);
+    }
+    views_[path.cell].radiance += path.throughput * glm::max(radiance, Vec3(0));
 }
 
 /// Light of a point of an emitter, by the balance heuristic.
@@ -318,8 +379,13 @@ void MirrorViewTracer::arrive(const Path& path, const Ray& ray, const Hit& hit,
     const std::uint32_t chart = hit ? chartHit(ray, hit) : kNoChart;
     if (chart == kNoChart && path.first && cells_[path.cell].guard) return restart(path, ray);
     const bool rough = !distances_.empty();
-    if (!hit && path.unfolding && (rough || !(path.length == 0 && isHidden(ray.origin))))
-        noteDistance(path, longest_);
+    if (!hit) {
+        if (path.unfolding && !rough && path.length == 0 && isHidden(ray.origin)) return;
+        if (path.unfolding)
+            noteDistance(
+                path, sky_.isBlack() ? longest_ : std::max(path.length, kSkyDistance * longest_));
+        return leave(path, ray);
+    }
     if (chart == kNoChart) return;
     const bool front = glm::dot(areaVector(scene_, hit.triangle), ray.direction) < 0;
     const Arrival at{hit,

@@ -9,7 +9,9 @@
 #include "vlf/propagate/mirror_cells.h"
 #include "vlf/propagate/shared_views.h"
 #include "vlf/scene/emitter_sampler.h"
+#include "vlf/scene/light_beam.h"
 #include "vlf/scene/scene.h"
+#include "vlf/scene/sky.h"
 #include "vlf/trace/ray_scene.h"
 
 #include <cstdint>
@@ -29,7 +31,8 @@ struct MirrorView {
 /// How many samples of what a rough mirror reflects make the light of a cell.
 struct GlossSamples {
     int reflections = 32;  ///< rays by its lobe
-    int emitters = 8;      ///< points on emitters
+    int emitters = 8;      ///< points on emitters, directions of the bright part of the sky, and
+                           ///< punctual lights where there are more than eight
 };
 
 /// Distance behind a mirror of the image of a point at distance d > 0 before it: the mean of the
@@ -38,20 +41,21 @@ struct GlossSamples {
 /// beyond that or is real (a concave mirror).
 float imageDistance(float d, float curvature, float cosine, float longest);
 
-/// Follows rays from mirror charts. Light seen is emission (of the emitting side) and ρE/π of the
-/// field's atlas. A guard cell outside the room or within a solid, as under the mirror's frame,
-/// shows what the chart's point next to it does.
+/// Follows rays from mirror charts. Light seen is emission (of the emitting side), ρE/π of the
+/// field's atlas, and the environment where rays leave the scene. A guard cell outside the room or
+/// within a solid, as under the mirror's frame, shows what the chart's point next to it does.
 class MirrorViewTracer {
   public:
-    /// Distances are limited to `longest`, which is also that of rays that leave the scene.
-    /// `cellSize`: of cells, metres.
+    /// Distances are limited to `longest`, which is also that of rays that leave the scene; a
+    /// quarter of it where they see an environment. `cellSize`: of cells, metres.
     MirrorViewTracer(const Scene& scene, const RayScene& rays, const LightField& field,
-                     const EmitterSampler& emitters, const GlossSamples& samples, float longest,
-                     float cellSize)
+                     const EmitterSampler& emitters, const Sky& sky, const GlossSamples& samples,
+                     float longest, float cellSize)
         : scene_(scene),
           rays_(rays),
           field_(field),
           emitters_(emitters),
+          sky_(sky),
           samples_(samples),
           longest_(longest),
           cellSize_(cellSize) {}
@@ -69,8 +73,8 @@ class MirrorViewTracer {
         bool unfolding;      ///< whether what comes next decides the distance
         bool first;          ///< from the cell itself
         bool scattered;      ///< by a rough mirror
-        float raysPerPoint;  ///< density of a rough mirror's rays by that of the points on emitters
-                             ///< that are sought from it, sr⁻¹; 0: there are none
+        float raysPerPoint;  ///< density of a rough mirror's rays, times how many there are for a
+                             ///< point of emitters that is sought from it, sr⁻¹; 0: none is sought
         float straight = 0;  ///< metres since then, by way of panes
     };
     struct Arrival;
@@ -93,6 +97,11 @@ class MirrorViewTracer {
                  RandomStream& random);
     void addPoint(const Path& path, const RoughPoint& at, const GlossSamples& samples,
                   const SidePoint& point);
+    void addSky(const Path& path, const RoughPoint& at, const GlossSamples& samples,
+                const Sky::Sample& sample);
+    void addPunctual(const Path& path, const RoughPoint& at, int picks, RandomStream& random);
+    void addBeam(const Path& path, const RoughPoint& at, const LightBeam& beam, float weight);
+    void leave(const Path& path, const Ray& ray);
     float pointDensity(std::uint32_t triangle, float distance, float cosine) const;
     float emitterWeight(const Path& path, const Ray& ray, const Hit& hit) const;
     void addVisiblePoints();
@@ -112,6 +121,7 @@ class MirrorViewTracer {
     const RayScene& rays_;
     const LightField& field_;
     const EmitterSampler& emitters_;
+    const Sky& sky_;
     GlossSamples samples_;
     float longest_, cellSize_;
     std::span<const MirrorCell> cells_;

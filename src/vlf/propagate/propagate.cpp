@@ -7,7 +7,8 @@
 //
 // a ratio: no cell areas and no solid angles, and a white furnace is exact. One sweep over a set of
 // directions is one bounce of all light (a Jacobi iteration). Coarse sweeps, each in a new random
-// rotation, bring the light to rest; a fine one then gives every texel its value.
+// rotation, bring the light to rest; a fine one then gives every texel its value. A ray that leaves
+// the scene sees the smooth part of the environment; its bright part is direct light (sky_light.h).
 //
 // How far it is lies in the state alone. The long loops end early when a pause is due, the state is
 // shown to the observer, and they go on; a state that was kept then goes on the same way.
@@ -49,7 +50,7 @@ TexelBuffer emit(const BakeState& state) {
                 radiance.set(texel, Vec3(0), 1);
     for (const auto& [texel, proxy] : state.unwrap.proxies)
         radiance.set(texel, radiance.rgb(proxy), 1);
-    radiance.set(radiance.texelCount(), Vec3(0), 1);  // outside: black
+    radiance.set(radiance.texelCount(), Vec3(0), 1);  // outside: what is seen there is added
     return radiance;
 }
 
@@ -89,6 +90,9 @@ bool sweepBundles(BakeState& state, const DirectionSet& directions, int cells, i
     const Mat3 turn =
         rotation < 0 ? Mat3(1) : sampleUniformRotation(Vec3(turns.next2(), turns.next()));
     const auto lines = static_cast<std::uint32_t>(directions.lineCount());
+    const std::vector<Vec3> outside = state.sources.sky
+                                          ? outsideViews(*state.sources.sky, directions, turn)
+                                          : std::vector<Vec3>(2 * std::size_t{lines}, Vec3(0));
     ProgressCounter done(progress, lines, linesSwept(s));
     parallelFor(kAccumulators, [&](std::size_t a) {
         SweepScratch scratch;
@@ -105,7 +109,8 @@ bool sweepBundles(BakeState& state, const DirectionSet& directions, int cells, i
                 makeSubfield(state.frame, direction, cells, roll, random.next2());
             sights.clear();
             s.exchanges[a] +=
-                sweepBundle(state.faces, subfield, radiance, s.parts[a], sights, scratch);
+                sweepBundle(state.faces, subfield, radiance, s.parts[a], sights, scratch,
+                            {outside[line], outside[directions.opposite(line)]});
             mirrors.gatherFromMirrors(subfield, sights, random, radiance, s.parts[a]);
             bent.take(direction, s.parts[a]);
             s.nextLine[a] += kAccumulators;

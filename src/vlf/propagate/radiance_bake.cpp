@@ -154,6 +154,7 @@ bool fillRadiance(const Scene& scene, const RayScene& rays, const LightField& fi
     RadianceField& radiance = partial.field;
     if (radiance.empty()) layOut(radiance, scene, field, directions, mirrors, params);
     const EmitterSampler emitters(scene);
+    const Sky sky(scene.environment, smoothCap(scene.environment));
     const auto count = static_cast<std::size_t>(directions.directionCount());
     ProgressCounter counter(progress, count, countDone(partial.done));
     return resumeLoop(partial.done, count, 4, counter, [&](std::size_t i) {
@@ -161,7 +162,8 @@ bool fillRadiance(const Scene& scene, const RayScene& rays, const LightField& fi
         const Vec3& toEye = directions.direction(d);
         const ParallelSubfield subfield = subfieldOf(field.frame, directions, d, params.cells);
         MirrorCellFinder finder(scene);
-        MirrorViewTracer tracer(scene, rays, field, emitters, params.gloss, radiance.maxDistance,
+        MirrorViewTracer tracer(scene, rays, field, emitters, sky, params.gloss,
+                                radiance.maxDistance,
                                 2 * field.frame.radius / static_cast<float>(params.cells));
         RandomStream random(0, d);
         for (const MirrorChart& mirror : mirrors) {

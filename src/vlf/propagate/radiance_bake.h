@@ -43,13 +43,13 @@ struct PartialRadiance {
 /// and the frame are read. The subfield of a direction and of its opposite is
 /// makeSubfield(field.frame, direction of the line, cells).
 ///
-/// What is seen is emission (of the emitting side) and ρE/π with E from the atlas, times the
-/// reflectance of the mirrors on the way, up to kMaxReflections of them. Every chart is covered on
-/// its own, whatever hides it, with a guard band: all cells whose square of twice the cell size
-/// touches it, so that bilinear interpolation on the chart finds its four cells. Deterministic for
-/// any number of threads. Empty if there is no mirror. Throws InputError for parameters out of
-/// range, or if elements that were made before are not of this field; Cancelled, after which, too,
-/// it can be gone on with.
+/// What is seen is emission (of the emitting side), ρE/π with E from the atlas and the environment,
+/// times the reflectance of the mirrors on the way, up to kMaxReflections of them. Every chart is
+/// covered on its own, whatever hides it, with a guard band: all cells whose square of twice the
+/// cell size touches it, so that bilinear interpolation on the chart finds its four cells.
+/// Deterministic for any number of threads. Empty if there is no mirror. Throws InputError for
+/// parameters out of range, or if elements that were made before are not of this field; Cancelled,
+/// after which, too, it can be gone on with.
 bool fillRadiance(const Scene& scene, const RayScene& rays, const LightField& field,
                   const RadianceParams& params, PartialRadiance& radiance, Progress& progress);
 

@@ -1,8 +1,8 @@
 #include "vlf/propagate/ray_gather.h"
 
-#include "vlf/math/frame.h"
 #include "vlf/math/microfacet.h"
 #include "vlf/math/sampling.h"
+#include "vlf/trace/shadow_ray.h"
 
 #include <algorithm>
 
@@ -95,7 +95,10 @@ void RayGatherer::advance(RandomStream& random, const TexelBuffer& radiance,
         const Path& path = paths_[i];
         const bool countsItself = path.fromTexel && path.steps == 0;
         if (!hit) {
-            if (countsItself) gathered.add(path.receiver, Vec3(0), 1);
+            if (countsItself || path.steps > 0)
+                gathered.add(path.receiver,
+                             path.throughput * outsideSeen(path, queue_[i].direction),
+                             countsItself ? 1 : 0);
             continue;
         }
         const bool front = glm::dot(areaVector(scene_, hit.triangle), queue_[i].direction) < 0;
@@ -114,7 +117,7 @@ void RayGatherer::advance(RandomStream& random, const TexelBuffer& radiance,
         if (material.isGlass())
             passGlass(path, queue_[i].direction, hit, front, position, random);
         else if (material.isMirror())
-            reflect(path, queue_[i].direction, hit, chart, front, position, random);
+            reflect(path, queue_[i].direction, hit, chart, front, position, random, gathered);
     }
     std::swap(paths_, nextPaths_);
     std::swap(queue_, nextQueue_);
@@ -131,8 +134,54 @@ Vec3 RayGatherer::radianceSeen(const Path& path, const Hit& hit, std::uint32_t c
            emittedRadiance(scene_, material, uvAt(scene_, hit.triangle, hit.barycentric));
 }
 
+/// The environment, but for the bright part as far as the rough mirror on the way has it already.
+Vec3 RayGatherer::outsideSeen(const Path& path, const Vec3& direction) const {
+    const Vec3 radiance = sources_.outside(direction, path.reflections, path.planarOnly,
+                                           path.behindPanes);
+    if (path.lobe <= 0 || radiance == Vec3(0) || !sources_.sky->sky.hasBright()) return radiance;
+    const Sky& sky = sources_.sky->sky;
+    return sky.smooth(direction) +
+           path.lobe / (path.lobe + sky.density(direction)) * sky.bright(direction);
+}
+
+/// Light that a rough mirror reflects to the receiver and that its lobe would find too seldom.
+void RayGatherer::lightRough(const Path& path, const RoughPoint& at, RandomStream& random,
+                             TexelBuffer& gathered) const {
+    if (sources_.allApart) return;
+    Vec3 light(0);
+    if (!sources_.punctual.empty()) light += punctualIn(at, random);
+    if (sources_.sky && sources_.sky->sky.hasBright()) light += skyIn(at, random);
+    if (light != Vec3(0)) gathered.add(path.receiver, path.throughput * light, 0);
+}
+
+Vec3 RayGatherer::punctualIn(const RoughPoint& at, RandomStream& random) const {
+    const Vec3 origin = at.position + rays_.epsilon() * at.side;
+    const PickedBeam picked =
+        pickBeam(sources_.punctual, at.position, rays_.epsilon(), random.next());
+    const Vec3& direction = picked.beam.toLight;
+    if (picked.probability <= 0 || glm::dot(direction, at.side) <= 0) return Vec3(0);
+    const float lobe = ggxLobe(at.roughness, at.toEye, at.frame.toLocal(direction));
+    if (lobe <= 0) return Vec3(0);
+    return rays_.transmittance(shadowRay(origin, picked.beam, rays_.epsilon())).colour *
+           (lobe / picked.probability) * picked.beam.irradiance;
+}
+
+/// By the balance heuristic with the ray that the lobe has drawn.
+Vec3 RayGatherer::skyIn(const RoughPoint& at, RandomStream& random) const {
+    const Sky::Sample sample = sources_.sky->sky.sample(random.next2());
+    if (glm::dot(sample.direction, at.side) <= 0) return Vec3(0);
+    const Vec3 local = at.frame.toLocal(sample.direction);
+    const float lobe = ggxLobe(at.roughness, at.toEye, local);
+    if (lobe <= 0) return Vec3(0);
+    const Transmittance passed =
+        rays_.transmittance({at.position + rays_.epsilon() * at.side, sample.direction});
+    const float byLobe = ggxDensity(at.roughness, at.toEye, local) * passed.chance;
+    return lobe / (sample.density + byLobe) * sample.bright * passed.colour;
+}
+
 void RayGatherer::reflect(Path path, const Vec3& direction, const Hit& hit, std::uint32_t chart,
-                          bool front, const Vec3& position, RandomStream& random) {
+                          bool front, const Vec3& position, RandomStream& random,
+                          TexelBuffer& gathered) {
     const bool planar = sources_.planarMirror[chart] != 0;
     const Material& material = scene_.material(hit.triangle);
     const Vec3 mirror =
@@ -149,12 +198,19 @@ void RayGatherer::reflect(Path path, const Vec3& direction, const Hit& hit, std:
     Vec3 normal = planar ? side : shadingNormalAt(scene_, hit.triangle, hit.barycentric);
     if (glm::dot(normal, side) < 0) normal = -normal;
     Vec3 reflected = glm::reflect(direction, normal);
+    path.lobe = 0;
     if (material.isGlossy()) {
         if (glm::dot(normal, direction) >= 0) normal = side;
+        RoughPoint at{position, side, frameFromNormal(normal), Vec3(0), material.roughness};
+        at.toEye = at.frame.toLocal(-direction);
+        at.toEye.z = std::max(at.toEye.z, 1e-4f);
+        lightRough(path, at, random, gathered);
         const GlossyReflection glossy =
             sampleGgxReflection(material.roughness, direction, normal, random.next2());
         reflected = glossy.direction;
         path.throughput *= glossy.weight;
+        if (sources_.sky && sources_.sky->sky.hasBright())
+            path.lobe = ggxDensity(material.roughness, at.toEye, at.frame.toLocal(reflected));
     }
     if (glm::dot(reflected, side) <= 0 || maxComponent(path.throughput) < kMinThroughput) return;
     nextQueue_.push_back({position + rays_.epsilon() * side, reflected});
@@ -174,10 +230,10 @@ void RayGatherer::passGlass(Path path, const Vec3& direction, const Hit& hit, bo
     if (!reflects) path.throughput *= split.radianceScale * glass.transmission;
     if (maxComponent(path.throughput) < kMinThroughput) return;
     ++path.steps;
-    if (!reflects && glass.thin)
-        path.behindPanes = true;
-    else
-        path.planarOnly = false;
+    const bool straight = !reflects && glass.thin;
+    path.behindPanes = path.behindPanes || straight;
+    path.planarOnly = path.planarOnly && straight;
+    path.lobe *= straight ? 1 - split.reflectance : 0;  // shadow rays pass panes alone
     const float offset = reflects ? rays_.epsilon() : -rays_.epsilon();
     nextQueue_.push_back(
         {position + offset * side, reflects ? split.reflected : split.transmitted});

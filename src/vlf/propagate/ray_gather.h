@@ -3,6 +3,7 @@
 // reflection or transmission to a diffuse surface, and by texels of their own that the bundles hit
 // too rarely.
 
+#include "vlf/math/frame.h"
 #include "vlf/math/random.h"
 #include "vlf/propagate/bundle_sweep.h"
 #include "vlf/propagate/light_sources.h"
@@ -26,6 +27,8 @@ inline float chanceToFollow(const Vec3& reflectance) {
 
 /// Follows rays over mirrors and glass and adds the radiance found to their receivers. Of the
 /// directions in which a rough mirror reflects, one is drawn; so is reflection or transmission.
+/// Punctual lights and the bright part of the environment are sought from rough mirrors besides, one
+/// of the former and one direction of the latter.
 class RayGatherer {
   public:
     RayGatherer(const Scene& scene, const RayScene& rays, const Unwrap& unwrap,
@@ -33,8 +36,9 @@ class RayGatherer {
         : scene_(scene), rays_(rays), unwrap_(unwrap), sources_(sources) {}
 
     /// What the mirror sights of one subfield come to see, to the samples that the sweep has
-    /// counted. `radiance`: diffuse radiance leaving each texel. Emission is added where the direct
-    /// light does not have it already (LightSources::covers).
+    /// counted. `radiance`: diffuse radiance leaving each texel. Emission, and the environment where
+    /// rays leave the scene, are added where the direct light does not have them already
+    /// (LightSources::covers).
     void gatherFromMirrors(const ParallelSubfield& subfield, const std::vector<MirrorSight>& sights,
                            RandomStream& random, const TexelBuffer& radiance,
                            TexelBuffer& gathered);
@@ -52,6 +56,14 @@ class RayGatherer {
         Vec3 throughput;
         int steps = 0;  // reflections and transmissions
         bool behindPanes = false;
+        float lobe = 0;  // density of its direction by the rough mirror that it leaves, sr⁻¹; 0: none
+    };
+    // A point of a rough mirror and how it is seen.
+    struct RoughPoint {
+        Vec3 position, side;
+        Frame frame;
+        Vec3 toEye;  // in it
+        float roughness;
     };
 
     void startAtMirrors(const ParallelSubfield& subfield, const std::vector<MirrorSight>& sights,
@@ -60,7 +72,12 @@ class RayGatherer {
     Vec3 radianceSeen(const Path& path, const Hit& hit, std::uint32_t chart, bool front,
                       const Vec3& position, const TexelBuffer& radiance) const;
     void reflect(Path path, const Vec3& direction, const Hit& hit, std::uint32_t chart, bool front,
-                 const Vec3& position, RandomStream& random);
+                 const Vec3& position, RandomStream& random, TexelBuffer& gathered);
+    void lightRough(const Path& path, const RoughPoint& at, RandomStream& random,
+                    TexelBuffer& gathered) const;
+    Vec3 punctualIn(const RoughPoint& at, RandomStream& random) const;
+    Vec3 skyIn(const RoughPoint& at, RandomStream& random) const;
+    Vec3 outsideSeen(const Path& path, const Vec3& direction) const;
     void passGlass(Path path, const Vec3& direction, const Hit& hit, bool front,
                    const Vec3& position, RandomStream& random);
     Ray texelRay(std::size_t texel, const Vec2& sample, RandomStream& random) const;

@@ -74,6 +74,10 @@ bool hasEmitter(const Scene& scene) {
     return hasMaterial(scene, [](const Material& m) { return m.isEmitter(); });
 }
 
+bool hasLight(const Scene& scene) {
+    return hasEmitter(scene) || !scene.lights.empty() || !scene.environment.isBlack();
+}
+
 bool hasMirror(const Scene& scene, MirrorKind kind) {
     return hasMaterial(scene, [&](const Material& m) { return m.isMirror(kind); });
 }
@@ -150,6 +154,7 @@ void append(Scene& scene, const Scene& other) {
     extend(scene.uvs, other.uvs);
     extend(scene.textures, other.textures);
     extend(scene.cameras, other.cameras);
+    extend(scene.lights, other.lights);
     for (Triangle t : other.triangles) {
         for (std::uint32_t& v : t.vertex) v += vertices;
         t.material += materials;

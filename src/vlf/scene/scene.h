@@ -5,6 +5,8 @@
 #include "vlf/math/bounds.h"
 #include "vlf/math/glass.h"
 #include "vlf/math/vector.h"
+#include "vlf/scene/environment.h"
+#include "vlf/scene/punctual_light.h"
 #include "vlf/scene/texture.h"
 
 #include <array>
@@ -98,6 +100,8 @@ struct Scene {
     std::vector<Material> materials;
     std::vector<Texture> textures;
     std::vector<Camera> cameras;
+    std::vector<PunctualLight> lights;  ///< besides emitting triangles
+    Environment environment;            ///< what is seen where there is nothing
 
     const Vec3& position(std::uint32_t triangle, int corner) const {
         return positions[triangles[triangle].vertex[corner]];
@@ -130,6 +134,10 @@ Vec3 emittedRadiance(const Scene& scene, const Material& material, const Vec2& u
 
 /// Whether any triangle's material emits, or mirrors.
 bool hasEmitter(const Scene& scene);
+
+/// Whether there is any light: emitters, punctual lights or an environment.
+bool hasLight(const Scene& scene);
+
 bool hasMirror(const Scene& scene);
 bool hasMirror(const Scene& scene, MirrorKind kind);
 
@@ -154,7 +162,8 @@ bool makeGlossDiffuse(Scene& scene);
 /// Leaves out triangles of glass. Returns whether there were any.
 bool dropGlass(Scene& scene);
 
-/// Appends `other` to `scene`: materials, textures and indices are renumbered.
+/// Appends `other` to `scene`: materials, textures and indices are renumbered. The environment
+/// stays that of `scene`.
 void append(Scene& scene, const Scene& other);
 
 /// A camera that sees the whole scene from outside or, for closed rooms, from a corner inside:

@@ -35,6 +35,28 @@ class Hasher {
     std::unique_ptr<XXH3_state_t, XXH_errorcode (*)(XXH3_state_t*)> state_;
 };
 
+/// Of a scene without any nothing is added.
+void addLights(const std::vector<PunctualLight>& lights, Hasher& hash) {
+    if (lights.empty()) return;
+    hash.add(lights.size());
+    for (const PunctualLight& light : lights) {
+        hash.add(light.kind);
+        for (const Vec3& v : {light.position, light.direction, light.intensity}) hash.add(v);
+        hash.add(light.innerCone);
+        hash.add(light.outerCone);
+    }
+}
+
+/// Likewise.
+void addEnvironment(const Environment& environment, Hasher& hash) {
+    if (environment.isBlack()) return;
+    hash.add(environment.radiance);
+    hash.add(environment.picture.width);
+    hash.add(environment.picture.height);
+    hash.add(environment.picture.pixels);
+    hash.add(environment.turn);
+}
+
 }  // namespace
 
 std::string sceneHash(const Scene& scene) {
@@ -59,6 +81,8 @@ std::string sceneHash(const Scene& scene) {
         hash.add(t.wrapU);
         hash.add(t.wrapV);
     }
+    addLights(scene.lights, hash);
+    addEnvironment(scene.environment, hash);
     return hash.text();
 }
 

@@ -55,27 +55,56 @@ Vec3 behind(const Scene& scene, const Hit& hit, const Vec3& direction, float eps
            (glm::dot(normal, direction) > 0 ? epsilon : -epsilon) * normal;
 }
 
-void followParticle(const Scene& scene, const RayScene& rays, const Sources& sources,
+Vec3 bounced(const Vec3& normal, RandomStream& random) {
+    return frameFromNormal(normal).toWorld(sampleCosineHemisphere(random.next2()));
+}
+
+void followParticle(const Scene& scene, const RayScene& rays,
                     const std::vector<std::uint32_t>& groupOf, std::vector<Counter>& counters,
-                    RandomStream random) {
-    std::uint32_t triangle = sources.pick(random.next());
-    Vec3 position = positionAt(scene, triangle, sampleUniformTriangle(random.next2()));
-    Vec3 normal = geometricNormal(scene, triangle);
+                    Ray ray, RandomStream& random) {
     for (int bounce = 0; bounce < kBounces; ++bounce) {
-        const Vec3 direction =
-            frameFromNormal(normal).toWorld(sampleCosineHemisphere(random.next2()));
-        Hit hit = rays.closest({position + rays.epsilon() * normal, direction});
+        Hit hit = rays.closest(ray);
         while (hit && scene.material(hit.triangle).isGlass() && random.next() < kPassesGlass)
-            hit = rays.closest({behind(scene, hit, direction, rays.epsilon()), direction});
+            hit = rays.closest({behind(scene, hit, ray.direction, rays.epsilon()), ray.direction});
         if (!hit) return;
-        triangle = hit.triangle;
-        position = positionAt(scene, triangle, hit.barycentric);
-        normal = geometricNormal(scene, triangle);
-        const bool front = glm::dot(normal, direction) < 0;
-        Counter& counter = counters[groupOf[triangle]];
+        Vec3 normal = geometricNormal(scene, hit.triangle);
+        const bool front = glm::dot(normal, ray.direction) < 0;
+        Counter& counter = counters[groupOf[hit.triangle]];
         (front ? counter.front : counter.back).fetch_add(1, std::memory_order_relaxed);
         if (!front) normal = -normal;
+        const Vec3 position = positionAt(scene, hit.triangle, hit.barycentric);
+        ray = {position + rays.epsilon() * normal, bounced(normal, random)};
     }
+}
+
+Ray fromSource(const Scene& scene, const RayScene& rays, const Sources& sources,
+               RandomStream& random) {
+    const std::uint32_t triangle = sources.pick(random.next());
+    const Vec3 position = positionAt(scene, triangle, sampleUniformTriangle(random.next2()));
+    const Vec3 normal = geometricNormal(scene, triangle);
+    return {position + rays.epsilon() * normal, bounced(normal, random)};
+}
+
+/// From a direction, through the sphere around the scene.
+Ray fromOutside(const Sphere& sphere, const Vec3& direction, RandomStream& random) {
+    const Vec2 u = random.next2();
+    const float r = sphere.radius * std::sqrt(u.x), phi = 2 * kPi * u.y;
+    const Vec3 offset =
+        frameFromNormal(direction).toWorld({r * std::cos(phi), r * std::sin(phi), 0});
+    return {sphere.centre + offset - 1.1f * sphere.radius * direction, direction};
+}
+
+/// From one of the punctual lights.
+Ray fromLight(const Scene& scene, const Sphere& sphere, RandomStream& random) {
+    const PunctualLight& light = scene.lights[random.nextBits() % scene.lights.size()];
+    if (light.kind == PunctualKind::directional)
+        return fromOutside(sphere, light.direction, random);
+    const Vec2 u = random.next2();
+    if (light.kind == PunctualKind::point) return {light.position, sampleUniformSphere(u)};
+    const float z = 1 - u.x * (1 - std::cos(light.outerCone)), phi = 2 * kPi * u.y;
+    const float s = std::sqrt(std::max(0.0f, 1 - z * z));
+    const Vec3 local(s * std::cos(phi), s * std::sin(phi), z);
+    return {light.position, frameFromNormal(light.direction).toWorld(local)};
 }
 
 OpenSides classify(std::uint32_t front, std::uint32_t back) {
@@ -90,13 +119,27 @@ std::vector<OpenSides> findOpenSides(const Scene& scene, const RayScene& rays,
                                      const std::vector<ChartGroup>& groups,
                                      const std::vector<std::uint32_t>& groupOf,
                                      std::uint64_t seed) {
-    const Sources sources(scene);
     std::vector<Counter> counters(groups.size());
     const std::size_t particles =
         std::clamp(kParticlesPerGroup * groups.size(), kMinParticles, kMaxParticles);
-    parallelFor(particles, 256, [&](std::size_t i) {
-        followParticle(scene, rays, sources, groupOf, counters, RandomStream(seed, i));
-    });
+    const Sphere sphere = boundingSphere(scene);
+    const bool sky = !scene.environment.isBlack(), lights = !scene.lights.empty();
+    const auto flood = [&](std::size_t number, const auto& start) {
+        parallelFor(particles, 256, [&](std::size_t i) {
+            RandomStream random(seed, number * particles + i);
+            const Ray ray = start(random);
+            followParticle(scene, rays, groupOf, counters, ray, random);
+        });
+    };
+    if (hasEmitter(scene) || !(sky || lights)) {
+        const Sources sources(scene);
+        flood(0, [&](RandomStream& r) { return fromSource(scene, rays, sources, r); });
+    }
+    if (sky)
+        flood(1, [&](RandomStream& r) {
+            return fromOutside(sphere, sampleUniformSphere(r.next2()), r);
+        });
+    if (lights) flood(2, [&](RandomStream& r) { return fromLight(scene, sphere, r); });
     std::vector<OpenSides> sides(groups.size());
     for (std::size_t g = 0; g < groups.size(); ++g) {
         sides[g] = classify(counters[g].front, counters[g].back);

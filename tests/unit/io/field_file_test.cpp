@@ -50,6 +50,50 @@ TEST(FieldFile, KeepsGeometryExactly) {
     }
 }
 
+TEST(FieldFile, KeepsLightsAndTheEnvironmentExactly) {
+    BakedRoom room = makeExampleRoom();
+    EXPECT_TRUE(throughFile(room).scene.lights.empty());
+    EXPECT_TRUE(throughFile(room).scene.environment.isBlack());
+    room.scene.lights.resize(2);
+    PunctualLight& spot = room.scene.lights[1];
+    spot = {"spot", PunctualKind::spot, {1, 2, 3}, {0, 1, 0}, {4, 5, 6}, 0.1f, 0.7f};
+    room.scene.environment = {"sky.hdr", {1, 0.5f, 2}, Image(6, 3, Vec3(0.25f)), 12.5f};
+    room.scene.environment.picture.at(5, 2) = {7, 8, 1e-9f};
+    const Scene read = throughFile(room).scene;
+    ASSERT_EQ(read.lights.size(), 2u);
+    EXPECT_EQ(read.lights[1].name, "spot");
+    EXPECT_EQ(read.lights[1].kind, PunctualKind::spot);
+    EXPECT_EQ(read.lights[1].position, spot.position);
+    EXPECT_EQ(read.lights[1].direction, spot.direction);
+    EXPECT_EQ(read.lights[1].intensity, spot.intensity);
+    EXPECT_EQ(read.lights[1].innerCone, spot.innerCone);
+    EXPECT_EQ(read.lights[1].outerCone, spot.outerCone);
+    EXPECT_EQ(read.environment.name, "sky.hdr");
+    EXPECT_EQ(read.environment.radiance, Vec3(1, 0.5f, 2));
+    EXPECT_EQ(read.environment.turn, 12.5f);
+    expectSameBits(read.environment.picture.pixels, room.scene.environment.picture.pixels);
+    room.scene.environment.picture = {};  // the same all around
+    EXPECT_TRUE(throughFile(room).scene.environment.isUniform());
+}
+
+TEST(FieldFile, RefusesLightsAndEnvironmentsThatAreNone) {
+    const auto refused = [](const std::function<void(Scene&)>& damage) {
+        BakedRoom room = makeExampleRoom();
+        room.scene.lights.resize(1);
+        room.scene.environment.radiance = Vec3(1);
+        damage(room.scene);
+        const TempFolder folder;
+        EXPECT_THROW(writeField(folder.file("room.vlf"), room), InputError);
+    };
+    refused([](Scene& s) { s.lights[0].intensity.y = -1; });
+    refused([](Scene& s) { s.lights[0].direction = Vec3(0); });
+    refused([](Scene& s) { s.lights[0].position.x = std::nanf(""); });
+    refused([](Scene& s) { s.lights[0].outerCone = 3; });
+    refused([](Scene& s) { s.environment.radiance.z = std::nanf(""); });
+    refused([](Scene& s) { s.environment.picture = Image(2, 1, Vec3(-1)); });
+    refused([](Scene& s) { s.environment.picture.width = 3; });
+}
+
 TEST(FieldFile, KeepsMaterialsExactly) {
     const BakedRoom room = makeExampleRoom(), read = throughFile(room);
     ASSERT_EQ(read.scene.materials.size(), room.scene.materials.size());

@@ -6,6 +6,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 namespace vlf::test {
 
 namespace {
@@ -239,6 +242,150 @@ TEST(DirectLight, ByTwoMirrorsComesFromTheImageOfTheImage) {
         return from(1, 1, 1) + from(-1, 1, 0.5) + from(1, -1, 0.5) + from(-1, -1, 0.25);
     }),
               0.03);
+}
+
+namespace {
+
+Scene floorUnder(const PunctualLight& light, float scale = 1) {
+    SceneBuilder b;
+    b.quad({-scale, 0, -scale}, {0, 0, 2 * scale}, {2 * scale, 0, 0},
+           b.material("floor", Vec3(0.5f)));
+    b.scene().lights = {light};
+    return b.scene();
+}
+
+PunctualLight pointAt(const Vec3& position, float intensity) {
+    PunctualLight light;
+    light.position = position;
+    light.intensity = Vec3(intensity);
+    return light;
+}
+
+/// I cosθ / d².
+double pointIrradiance(const PunctualLight& light, const Vec3& p, const Vec3& n) {
+    const DVec3 d = DVec3(light.position) - DVec3(p);
+    return light.intensity.x * std::max(0.0, glm::dot(DVec3(n), d)) / std::pow(glm::length(d), 3);
+}
+
+}  // namespace
+
+TEST(DirectLight, OfAPointFallsWithTheSquareOfTheDistanceAndTheCosineAtAnyScale) {
+    for (const float scale : {1e-3f, 1.0f, 1e3f}) {
+        const PunctualLight light = pointAt(scale * Vec3(0.3f, 0.8f, -0.2f), 5 * scale * scale);
+        const Lit lit(floorUnder(light, scale), 0.05f * scale, 16);
+        EXPECT_LT(lit.largestError([&](const Vec3& p) { return pointIrradiance(light, p, kUp); }),
+                  1e-3)
+            << scale;
+    }
+}
+
+TEST(DirectLight, OfASpotIsThatWithinItsCones) {
+    PunctualLight light = pointAt({0.1f, 1, 0.2f}, 4);
+    light.kind = PunctualKind::spot;
+    light.direction = glm::normalize(Vec3(0.2f, -1, 0));
+    light.innerCone = 0.25f;
+    light.outerCone = 0.55f;
+    const Lit lit(floorUnder(light), 0.05f, 16);
+    EXPECT_LT(lit.largestError([&](const Vec3& p) {
+        const DVec3 way = glm::normalize(DVec3(p) - DVec3(light.position));
+        const double outer = std::cos(0.55), width = std::cos(0.25) - outer;
+        const double t =
+            std::clamp((glm::dot(way, DVec3(light.direction)) - outer) / width, 0.0, 1.0);
+        return t * t * pointIrradiance(light, p, kUp);
+    }),
+              2e-3);
+}
+
+TEST(DirectLight, OfADirectionalLightIsTheSameAllOverAndHasAHardShadow) {
+    PunctualLight light = pointAt(Vec3(0), 3);
+    light.kind = PunctualKind::directional;
+    light.direction = glm::normalize(Vec3(0.5f, -1, 0.25f));
+    SceneBuilder b;
+    b.scene() = floorUnder(light);
+    b.quad({-0.4f, 0.5f, -0.3f}, {0.5f, 0, 0}, {0, 0, 0.6f}, b.material("board", Vec3(0.5f)));
+    const Lit lit(b.scene(), 0.05f, 64);
+    // The board's shadow lies 0.25 along x and 0.125 along z from below it.
+    EXPECT_LT(lit.largestError([&](const Vec3& p) {
+        const bool shadowed = p.x > -0.15f && p.x < 0.35f && p.z > -0.175f && p.z < 0.425f;
+        return shadowed ? 0 : 3 * std::abs(light.direction.y);
+    }),
+              0.3);  // of a point or two of a texel that the edge crosses
+    double sum = 0;
+    for (std::size_t i = 0; i < lit.irradiance.size(); ++i)
+        if (lit.unwrap.texelChart[i] == lit.unwrap.triangleCharts[0].front)
+            sum += lit.irradiance[i].x * lit.unwrap.texelArea(i);
+    EXPECT_NEAR(sum / (3 * std::abs(light.direction.y) * (4 - 0.5 * 0.6)), 1, 2e-3);
+}
+
+TEST(DirectLight, OfAPointComesByWayOfAMirrorToo) {
+    const PunctualLight light = pointAt({0.5f, 0.7f, 0.1f}, 2);
+    SceneBuilder b;
+    b.quad({0, 0, -1}, {0, 0, 2}, {2, 0, 0}, b.material("floor", Vec3(0.5f)));
+    b.quad({0, 0, -4}, {0, 8, 0}, {0, 0, 8}, b.material("mirror", Vec3(0), Vec3(0), Vec3(0.5f)));
+    b.scene().lights = {light};
+    const Lit lit(b.scene(), 0.1f, 64);
+    PunctualLight image = light;
+    image.position.x = -light.position.x;
+    EXPECT_LT(lit.largestError([&](const Vec3& p) {
+        return pointIrradiance(light, p, kUp) + 0.5 * pointIrradiance(image, p, kUp);
+    }),
+              0.01);
+}
+
+TEST(DirectLight, OfADirectionalLightComesByWayOfAMirrorToo) {
+    PunctualLight light = pointAt(Vec3(0), 2);
+    light.kind = PunctualKind::directional;
+    light.direction = glm::normalize(Vec3(-1, -1, 0));
+    SceneBuilder b;
+    b.quad({0, 0, -1}, {0, 0, 2}, {1, 0, 0}, b.material("floor", Vec3(0.5f)));
+    b.quad({0, 0, -4}, {0, 8, 0}, {0, 0, 8}, b.material("mirror", Vec3(0), Vec3(0), Vec3(0.5f)));
+    b.scene().lights = {light};
+    const Lit lit(b.scene(), 0.1f, 64);
+    EXPECT_LT(lit.largestError([&](const Vec3&) { return 1.5 * 2 * std::sqrt(0.5); }), 1e-3);
+}
+
+TEST(DirectLight, IsFiniteWhereALightLiesOnASurfaceOrAtATexel) {
+    Scene scene = floorUnder(pointAt(Vec3(0), 1));
+    const RayScene rays(scene);
+    const Unwrap charts = unwrap(scene, rays, {0.1f});
+    const SurfacePoint& p = charts.points.of(charts.texels.size() / 3)[0];
+    scene.lights.push_back(pointAt(positionAt(scene, p.triangle, p.barycentric), 1));
+    scene.lights.push_back(pointAt({0.05f, 1e-7f, 0.05f}, 1));
+    for (const Vec3& e : Lit(scene, 0.1f, 16).irradiance) EXPECT_TRUE(isFinite(e));
+}
+
+TEST(DirectLight, OfHundredsOfLightsIsTheirSum) {
+    Scene scene = floorUnder(pointAt({0, 1, 0}, 0.01f));
+    scene.lights.clear();
+    for (int i = 0; i < 300; ++i) {
+        const auto f = static_cast<float>(i);
+        scene.lights.push_back(pointAt({std::sin(f), 0.5f + 0.4f * std::cos(7 * f), std::cos(f)},
+                                       0.01f * (1 + static_cast<float>(i % 5))));
+    }
+    const Lit lit(scene, 0.1f, 256);
+    EXPECT_LT(lit.largestError([&](const Vec3& p) {
+        double sum = 0;
+        for (const PunctualLight& light : scene.lights) sum += pointIrradiance(light, p, kUp);
+        return sum;
+    }),
+              0.05);
+}
+
+TEST(DirectLight, OfALightOutsideDoesNotEnterAClosedRoom) {
+    SceneBuilder b;
+    b.box(Vec3(0), Vec3(2), true, b.material("wall", Vec3(0.5f)));
+    b.scene().lights = {pointAt({5, 1, 1}, 100)};
+    const Lit lit(b.scene(), 0.1f, 16);
+    double outside = 0;
+    for (std::size_t i = 0; i < lit.irradiance.size(); ++i) {
+        const std::uint32_t triangle = lit.unwrap.points.of(i)[0].triangle;
+        const bool isFront = lit.unwrap.triangleCharts[triangle].front == lit.unwrap.texelChart[i];
+        if (isFront)
+            EXPECT_EQ(lit.irradiance[i], Vec3(0));
+        else
+            outside += lit.irradiance[i].x;
+    }
+    EXPECT_GT(outside, 0);
 }
 
 TEST(DirectLight, CanBeCancelled) {

@@ -106,7 +106,9 @@ void FieldShader::fillProbes() {
                       std::vector<Hit> hits(rays.size());
                       rays_.closest(rays, hits);
                       for (std::size_t i = 0; i < rays.size(); ++i) {
-                          radiance[i] = hits[i] ? lookUpRoom(rays[i], hits[i]) : Vec3(0);
+                          radiance[i] = hits[i]
+                                            ? lookUpRoom(rays[i], hits[i])
+                                            : skyRadiance(scene_.environment, rays[i].direction);
                           from[i] = hits[i].t;
                       }
                   });
@@ -137,6 +139,10 @@ std::uint64_t FieldShader::radiance(std::span<const Ray> rays, std::span<Vec3> r
                 followObject(queue.paths[i], queue.rays[i], objectHits[i], radiance, next);
             else if (hits[i])
                 followRoom(queue.paths[i], queue.rays[i], hits[i], radiance, next);
+            else
+                radiance[queue.paths[i].ray] +=
+                    queue.paths[i].throughput *
+                    skyRadiance(scene_.environment, queue.rays[i].direction);
         std::swap(queue, next);
         next.clear();
     }

@@ -42,8 +42,8 @@ class FieldShader {
                 LookupKind lookup = LookupKind::depthCorrected,
                 const DynamicRoom* objects = nullptr);
 
-    /// Radiance (W·m⁻²·sr⁻¹) that arrives along each of `rays` from where it points; black from
-    /// outside the scene and from sides without a chart. Returns the number of rays traced.
+    /// Radiance (W·m⁻²·sr⁻¹) that arrives along each of `rays` from where it points; the environment's
+    /// from outside the scene, black from sides without a chart. Returns the number of rays traced.
     std::uint64_t radiance(std::span<const Ray> rays, std::span<Vec3> radiance) const;
 
   private:

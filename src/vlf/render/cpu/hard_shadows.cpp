@@ -23,7 +23,7 @@ float HardShadows::remaining(const Surface& surface) const {
     const Vec3 origin = surface.position + rays_.epsilon() * surface.geometricNormal;
     const Vec3 toLight = light_->position - origin;
     if (glm::dot(toLight, surface.geometricNormal) <= 0) return 1;
-    if (glm::dot(toLight, light_->normal) > 0) return 1;
+    if (light_->factor(-glm::normalize(toLight)) <= 0) return 1;
     const Ray ray{origin, toLight, 0, 1};
     const float opacity = opacityTowardsLight(ray);
     return opacity > 0 && reachesLight(ray) ? 1 - opacity : 1;

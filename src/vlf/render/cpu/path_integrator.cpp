@@ -1,5 +1,7 @@
 #include "vlf/render/cpu/path_integrator.h"
 
+#include "vlf/trace/shadow_ray.h"
+
 #include <algorithm>
 
 namespace vlf {
@@ -8,6 +10,9 @@ namespace {
 
 /// Paths of this many segments and more are continued by chance.
 constexpr int kRouletteDepth = 4;
+
+/// As many punctual lights are all asked at every point; of more, one is picked.
+constexpr std::size_t kFewLights = 4;
 
 /// Keeps paths between perfect mirrors finite.
 constexpr float kMaxSurvival = 0.97f;
@@ -39,9 +44,11 @@ struct PathIntegrator::Path {
 };
 
 PathIntegrator::PathIntegrator(const Scene& scene, const RayScene& rays, const PathOptions& options)
-    : scene_(scene), rays_(rays), options_(options), emitters_(scene) {
-    if (emitters_.empty()) options_.sampleEmitters = false;
-}
+    : scene_(scene),
+      rays_(rays),
+      options_(options),
+      emitters_(scene),
+      sky_(scene.environment, meanLuminance(scene.environment)) {}
 
 Vec3 PathIntegrator::radiance(const Ray& ray, RandomStream& random) const {
     Path path{ray};
@@ -70,7 +77,8 @@ std::optional<Vec3> PathIntegrator::irradiance(const SidePoint& point, const Sid
 
 Vec3 PathIntegrator::followPath(Path path, RandomStream& random) const {
     Vec3 radiance(0);
-    while (path.hit) {
+    for (;;) {
+        if (!path.hit) return radiance + path.throughput * skySeen(path);
         const SidePoint point = pointFacing(scene_, path.hit, path.ray.direction);
         radiance += path.throughput * emitterSeen(path, point);
         if (scene_.material(point.triangle).isGlass()) {
@@ -90,6 +98,13 @@ Vec3 PathIntegrator::followPath(Path path, RandomStream& random) const {
     return radiance;
 }
 
+/// By the lobes all of the environment can be met, by its brightness what is above the mean.
+Vec3 PathIntegrator::skySeen(const Path& path) const {
+    const Vec3 radiance = sky_.radiance(path.ray.direction);
+    if (!options_.sampleEmitters || path.density == kCertain || !sky_.hasBright()) return radiance;
+    return radiance * powerHeuristic(path.density, sky_.density(path.ray.direction));
+}
+
 Vec3 PathIntegrator::emitterSeen(const Path& path, const SidePoint& point) const {
     const Vec3 emission = emittedRadiance(scene_, point);
     if (!options_.sampleEmitters || path.density == kCertain || emission == Vec3(0))
@@ -103,7 +118,52 @@ Vec3 PathIntegrator::emitterSeen(const Path& path, const SidePoint& point) const
 
 Vec3 PathIntegrator::directLight(const Surface& surface, const Scattering& scattering,
                                  RandomStream& random) const {
-    if (!options_.sampleEmitters || !scattering.hasLobes()) return Vec3(0);
+    if (!scattering.hasLobes()) return Vec3(0);
+    Vec3 light = punctualLight(surface, scattering, random);
+    if (!options_.sampleEmitters) return light;
+    light += emitterLight(surface, scattering, random);
+    return light + skyLight(surface, scattering, random);
+}
+
+Vec3 PathIntegrator::punctualLight(const Surface& surface, const Scattering& scattering,
+                                   RandomStream& random) const {
+    const std::vector<PunctualLight>& lights = scene_.lights;
+    if (lights.empty()) return Vec3(0);
+    if (lights.size() > kFewLights) {
+        const PickedBeam picked =
+            pickBeam(lights, surface.position, rays_.epsilon(), random.next());
+        if (!(picked.probability > 0)) return Vec3(0);
+        return beamLight(surface, scattering, picked.beam) / picked.probability;
+    }
+    Vec3 sum(0);
+    for (const PunctualLight& light : lights)
+        sum += beamLight(surface, scattering, beamOf(light, surface.position, rays_.epsilon()));
+    return sum;
+}
+
+Vec3 PathIntegrator::beamLight(const Surface& surface, const Scattering& scattering,
+                               const LightBeam& beam) const {
+    const Vec3 light = scattering.lobes(beam.toLight) * beam.irradiance;
+    if (!(maxComponent(light) > 0)) return Vec3(0);
+    const Vec3 origin = surface.position + rays_.epsilon() * surface.geometricNormal;
+    return light * rays_.transmittance(shadowRay(origin, beam, rays_.epsilon())).colour;
+}
+
+Vec3 PathIntegrator::skyLight(const Surface& surface, const Scattering& scattering,
+                              RandomStream& random) const {
+    if (!sky_.hasBright()) return Vec3(0);
+    const Sky::Sample sample = sky_.sample(random.next2());
+    const Vec3 lobes = scattering.lobes(sample.direction);
+    if (maxComponent(lobes) <= 0 || !(sample.density > 0)) return Vec3(0);
+    const Transmittance passed = rays_.transmittance(rayFrom(surface, sample.direction));
+    const float byChance = scattering.density(sample.direction) * passed.chance;
+    const float weight = powerHeuristic(sample.density, byChance);
+    return lobes * sky_.radiance(sample.direction) * passed.colour * (weight / sample.density);
+}
+
+Vec3 PathIntegrator::emitterLight(const Surface& surface, const Scattering& scattering,
+                                  RandomStream& random) const {
+    if (emitters_.empty()) return Vec3(0);
     SidePoint point = emitters_.sample(random);
     Surface emitter = surfaceAt(scene_, point);
     const Vec3 between = emitter.position - surface.position;

@@ -7,6 +7,8 @@
 #include "vlf/render/cpu/scattering.h"
 #include "vlf/render/cpu/surface.h"
 #include "vlf/scene/emitter_sampler.h"
+#include "vlf/scene/light_beam.h"
+#include "vlf/scene/sky.h"
 
 #include <functional>
 #include <optional>
@@ -16,14 +18,17 @@ namespace vlf {
 struct PathOptions {
     int maxDepth = 0;            ///< segments of the longest path, the one that ends on the emitter
                                  ///< included; 0: unlimited. 1: emitters seen directly
-    bool sampleEmitters = true;  ///< false: find emitters by chance alone (slow; the same result)
+    bool sampleEmitters = true;  ///< false: find emitters and bright parts of the environment by
+                                 ///< chance alone (slow; the same result)
 };
 
 /// Whether light can reach a side of a triangle; false for the inside of a solid.
 using SideIsOpen = std::function<bool(std::uint32_t triangle, bool front)>;
 
-/// Estimators of radiance and irradiance. Refers to the scene and its rays, which must outlive it;
-/// safe to use from several threads, each with its own random stream.
+/// Estimators of radiance and irradiance. Of punctual lights no path over perfect mirrors alone can
+/// tell: that light (caustics) is missing, as is their image in mirrors. Refers to the scene and
+/// its rays, which must outlive it; safe to use from several threads, each with its own random
+/// stream.
 class PathIntegrator {
   public:
     PathIntegrator(const Scene& scene, const RayScene& rays, const PathOptions& options = {});
@@ -42,8 +47,16 @@ class PathIntegrator {
 
     Vec3 followPath(Path path, RandomStream& random) const;
     Vec3 emitterSeen(const Path& path, const SidePoint& point) const;
+    Vec3 skySeen(const Path& path) const;
     Vec3 directLight(const Surface& surface, const Scattering& scattering,
                      RandomStream& random) const;
+    Vec3 emitterLight(const Surface& surface, const Scattering& scattering,
+                      RandomStream& random) const;
+    Vec3 punctualLight(const Surface& surface, const Scattering& scattering,
+                       RandomStream& random) const;
+    Vec3 beamLight(const Surface& surface, const Scattering& scattering,
+                   const LightBeam& beam) const;
+    Vec3 skyLight(const Surface& surface, const Scattering& scattering, RandomStream& random) const;
     bool scatter(const Surface& surface, const Scattering& scattering, Path& path,
                  RandomStream& random) const;
     Ray rayFrom(const Surface& surface, const Vec3& direction) const;
@@ -54,6 +67,7 @@ class PathIntegrator {
     const RayScene& rays_;
     PathOptions options_;
     EmitterSampler emitters_;
+    Sky sky_;  ///< the bright part, which is sought by its brightness, above the mean
 };
 
 }  // namespace vlf

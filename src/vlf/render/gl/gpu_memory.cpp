@@ -1,6 +1,7 @@
 #include "vlf/render/gl/gpu_memory.h"
 
 #include "vlf/render/gl/radiance_layout.h"
+#include "vlf/render/gl/sky_picture.h"
 
 namespace vlf {
 
@@ -13,7 +14,7 @@ std::uint64_t textureBytes(const Scene& scene) {
     for (const Texture& t : scene.textures)
         bytes +=
             static_cast<std::uint64_t>(t.width) * t.height * (t.linear.empty() ? 4 : 6) * 4 / 3;
-    return bytes;
+    return bytes + gl::skyBytes(scene.environment);
 }
 
 GpuMemory gpuMemoryOf(const Scene& scene, const LightField& field) {

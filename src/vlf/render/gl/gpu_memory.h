@@ -13,7 +13,7 @@ namespace vlf {
 /// Bytes of vertices and indices.
 std::uint64_t bytesOf(const RoomGeometry& room);
 
-/// Bytes of the scene's textures with all levels of detail.
+/// Bytes of the scene's textures with all levels of detail, and of its environment.
 std::uint64_t textureBytes(const Scene& scene);
 
 /// What a Renderer without limits takes. Precondition: the field is of this scene.

@@ -13,6 +13,7 @@
 #include "vlf/render/gl/room_vertex_array.h"
 #include "vlf/render/gl/scene_textures.h"
 #include "vlf/render/gl/shader_library.h"
+#include "vlf/render/gl/sky_picture.h"
 #include "vlf/render/gl/tone_data.h"
 #include "vlf/trace/ray_scene.h"
 
@@ -72,6 +73,7 @@ struct Renderer::Impl {
           lightField(field),
           shaders(options.shaderFolder),
           textures(scene),
+          sky(scene.environment, textureSide(options)),
           atlas(requireSameScene(scene, field), textureSide(options)),
           canLookUp(!hasSpecular(scene, MirrorKind::perfect) || !field.radiance.empty()),
           showsPanes(hasPane(scene)),
@@ -94,6 +96,7 @@ struct Renderer::Impl {
         nearest = kNearest * field.frame.radius;
         rayStart = rayEpsilon(scene);
         memory.textures = textureBytes(scene);
+        if (!sky.isBlack()) shaders.setCommon({{"SKY", "1"}});
         loadRadiance(radiance, lightField.radiance, room.mirrorCharts, options);
         loadRadiance(gloss, lightField.gloss, room.roughCharts, options);
         makePrograms();
@@ -226,6 +229,18 @@ struct Renderer::Impl {
                 drawMirror(i, view, settings);
             else
                 drawBatch(i, definesOf(batches[i], settings, !objects.empty()));
+        drawSky({});
+    }
+
+    /// Where nothing has been drawn.
+    void drawSky(const Defines& defines) {
+        if (sky.isBlack()) return;
+        glUseProgram(shaders.program("sky", defines));
+        glDisable(GL_CULL_FACE);
+        glDepthFunc(GL_LEQUAL);
+        glDepthMask(GL_FALSE);
+        glDrawArrays(GL_TRIANGLES, 0, 3);
+        glDepthMask(GL_TRUE);
     }
 
     /// With objects where it shows them, with changed light where it shows that, and elsewhere as
@@ -270,6 +285,7 @@ struct Renderer::Impl {
                                glBindVertexArray(vertexArray.id());
                                for (std::size_t i = 0; i < batches.size(); ++i)
                                    drawBatch(i, definesOf(batches[i], settings, true, true));
+                               drawSky({{"PROBED", "1"}});
                            });
         viewData = shown;
         glNamedBufferSubData(viewBuffer.id(), 0, sizeof viewData, &viewData);
@@ -290,6 +306,7 @@ struct Renderer::Impl {
         viewData.eye = Vec4(view.eye, rayStart);
         viewData.tone = toneData(settings);
         viewData.trace.x = static_cast<int>(objects.hits().roomNodes());
+        if (!sky.isBlack()) sky.describe(view.clipFromWorld, viewData);
         glNamedBufferSubData(viewBuffer.id(), 0, sizeof viewData, &viewData);
     }
 
@@ -349,6 +366,7 @@ struct Renderer::Impl {
         glBindBufferBase(GL_UNIFORM_BUFFER, kViewBlock, viewBuffer.id());
         for (int unit = 0; unit < kUnits; ++unit) glBindSampler(static_cast<GLuint>(unit), 0);
         glBindTextureUnit(kIrradianceUnit, atlas.id());
+        sky.bind();
         objects.hits().bind();
     }
 
@@ -370,6 +388,7 @@ struct Renderer::Impl {
     const LightField& lightField;
     ShaderLibrary shaders;
     SceneTextures textures;
+    SkyPicture sky;
     std::vector<RoomBatch> batches;
     Buffer vertices, indices, viewBuffer;
     std::vector<Buffer> materialBuffers;     ///< of each batch

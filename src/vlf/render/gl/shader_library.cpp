@@ -62,7 +62,8 @@ std::string ShaderLibrary::expand(const std::string& file, const Defines& define
 
 Shader ShaderLibrary::shader(GLenum stage, const std::string& file, const Defines& defines) const {
     std::string text = "#version 450 core\n";
-    for (const auto& [name, value] : defines) text += "#define " + name + " " + value + "\n";
+    for (const Defines* all : {&common_, &defines})
+        for (const auto& [name, value] : *all) text += "#define " + name + " " + value + "\n";
     std::vector<std::string> files;
     text += expand(file, defines, files);
     Shader shader(glCreateShader(stage));

@@ -18,6 +18,9 @@ class ShaderLibrary {
     /// Files in `folder` are used in place of the built-in ones of the same name; empty: none.
     explicit ShaderLibrary(std::string folder = {}) : folder_(std::move(folder)) {}
 
+    /// In all programs that are made from now on, besides their own.
+    void setCommon(Defines defines) { common_ = std::move(defines); }
+
     /// The program of NAME.vert and NAME.frag, made when first asked for. Throws InputError with
     /// the driver's message, in which lines are named by file.
     GLuint program(const std::string& name, const Defines& defines);
@@ -36,6 +39,7 @@ class ShaderLibrary {
                        std::vector<std::string>& files) const;
 
     std::string folder_;
+    Defines common_;
     std::map<Key, Program> programs_;
 };
 

@@ -50,11 +50,11 @@ void ShadowMap::aim(const PointLight& light, std::span<const Vec4> spheres) {
         const float off = std::acos(std::clamp(glm::dot(to, forward) / length, -1.0f, 1.0f));
         half = std::max(half, off + std::asin(std::min(radius / length, 1.0f)));
     }
-    half = std::clamp(half, 1e-3f, kWidest);
+    half = std::clamp(half, 1e-4f, kWidest);
     const Vec3 up = std::abs(forward.y) < 0.9f ? Vec3(0, 1, 0) : Vec3(1, 0, 0);
     data_.clipFromWorld = glm::infinitePerspective(2 * half, 1.0f, kNearest * distance) *
                           glm::lookAt(light.position, light.position + forward, up);
-    data_.light = Vec4(light.position, 0);
+    data_.light = Vec4(light.position, light.cone.y > 0 ? light.cone.x : 0);
     data_.normal = Vec4(light.normal, 2 * std::tan(half) / static_cast<float>(wantedSize_));
 }
 

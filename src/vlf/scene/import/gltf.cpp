@@ -1,4 +1,4 @@
-// glTF 2.0 to Scene: nodes with their meshes and cameras.
+// glTF 2.0 to Scene: nodes with their meshes, cameras and lights.
 
 #include "vlf/scene/camera_view.h"
 #include "vlf/scene/import/alpha_mask.h"
@@ -81,15 +81,12 @@ class GltfImporter {
             const tinygltf::Node& node = file_.model.nodes[index];
             if (node.mesh >= 0) addMesh(index);
             if (node.camera >= 0) addCamera(node, *pose_[index]);
+            if (file_.lights.ofNode[index] >= 0) addLight(index);
         }
         if (!file_.model.animations.empty())
             warn(report_, file_.at("animations"),
                  fmt::format("{} animations are left out; everything is as at rest",
                              file_.model.animations.size()));
-        if (!file_.model.lights.empty())
-            warn(report_, file_.at("extensions"),
-                 fmt::format("{} lights of KHR_lights_punctual are not supported and left out",
-                             file_.model.lights.size()));
         return {std::move(scene_), std::move(masked_)};
     }
 
@@ -247,6 +244,31 @@ class GltfImporter {
                             static_cast<float>(fov)};
         if (!hasView(camera)) return warn(report_, at, "left out: its transform is singular");
         scene_.cameras.push_back(camera);
+    }
+
+    /// Shines along the node's -Z; its scale means nothing to it.
+    void addLight(int index) {
+        const Transform& worldFromNode = *pose_[index];
+        PunctualLight light = file_.lights.lights[file_.lights.ofNode[index]];
+        const SourceLocation where = file_.at(fmt::format("nodes[{}]", index));
+        if (maxComponent(light.intensity) <= 0)
+            return warn(report_, where, "its light is left out: it is dark");
+        const glm::dvec3 back(worldFromNode[2]);
+        light.position = Vec3(glm::dvec3(worldFromNode[3]));
+        light.direction = Vec3(-back / glm::length(back));
+        if (!isFinite(light.position) || maxComponent(glm::abs(light.position)) > kMaxCoordinate)
+            throw InputError(
+                where,
+                fmt::format("its light lies farther than {:g} m from the origin", kMaxCoordinate));
+        if (!isFinite(light.direction)) {
+            if (light.kind != PunctualKind::point)
+                return warn(report_, where, "its light is left out: its transform is singular");
+            light.direction = {0, 0, -1};
+        }
+        const std::string& name = file_.model.nodes[index].name;
+        if (light.name.empty() || !name.empty()) light.name = name;
+        if (light.name.empty()) light.name = fmt::format("light {}", scene_.lights.size());
+        scene_.lights.push_back(std::move(light));
     }
 
     const GltfFile& file_;

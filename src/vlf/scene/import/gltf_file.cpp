@@ -38,10 +38,9 @@ std::vector<GltfImage> findImages(const std::string& path, const json& root, Imp
 }
 
 /// The structure of a document; buffers and images stay empty, as tinygltf does not read those
-/// that are missing, compressed or of other formats.
+/// that are missing, compressed or of other formats, and so do lights, which it does not check.
 tinygltf::Model modelOf(const std::string& path, json root) {
-    root.erase("buffers");
-    root.erase("images");
+    for (const char* part : {"buffers", "images", "extensions"}) root.erase(part);
     const std::string text = root.dump();
     tinygltf::Model model;
     std::string error, ignored;
@@ -63,9 +62,10 @@ GltfFile readGltf(const std::string& path, ImportReport& report) {
     const std::vector<std::uint8_t> bytes = readFileBytes(path);
     const GltfChunks chunks = gltfChunks(path, bytes);
     json root = parseGltf(path, chunks.json, report);
-    GltfFile file{path, {}, readGltfBuffers(path, root, chunks.binary, report), {}};
+    GltfFile file{path, {}, readGltfBuffers(path, root, chunks.binary, report), {}, {}};
     decompressGltf(path, root, file.buffers);
     file.images = findImages(path, root, report);
+    file.lights = readGltfLights(path, root, report);
     file.model = modelOf(path, std::move(root));
     return file;
 }

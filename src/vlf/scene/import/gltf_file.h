@@ -4,6 +4,7 @@
 #include "vlf/base/error.h"
 #include "vlf/math/vector.h"
 #include "vlf/scene/import/gltf_data.h"
+#include "vlf/scene/import/gltf_light.h"
 #include "vlf/scene/import/import.h"
 
 #include <tiny_gltf.h>
@@ -21,12 +22,13 @@ struct GltfImage {
 };
 
 /// A glTF document, not compressed, with its buffers. Every index from one element to another
-/// exists. The model's own buffers and images are empty.
+/// exists. The model's own buffers, images and lights are empty.
 struct GltfFile {
     std::string path;
     tinygltf::Model model;
     std::vector<GltfBytes> buffers;
     std::vector<GltfImage> images;
+    GltfLights lights;
 
     SourceLocation at(const std::string& element) const { return {path, 0, element}; }
 };

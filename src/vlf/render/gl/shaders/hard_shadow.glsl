@@ -18,7 +18,7 @@ float remainingLight(vec3 position, float steepness, float tolerance) {
     vec4 clip = shadow.clipFromWorld * vec4(position, 1);
     vec2 at = 0.5 * clip.xy / clip.w + 0.5;
     bool outside = clip.w <= 0 || at != clamp(at, vec2(0), vec2(1)) ||
-                   dot(shadow.light.xyz - position, shadow.normal.xyz) > 0;
+                   dot(normalize(shadow.light.xyz - position), shadow.normal.xyz) > -shadow.light.w;
     float remaining = 1;
     while (!outside) {
         float texel = shadow.normal.w * clip.w;

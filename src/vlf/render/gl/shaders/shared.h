@@ -39,7 +39,8 @@ VLF_INT kMirrorMapUnit = 13;
 VLF_INT kChangeUnit = 14;         // how objects change the irradiance atlas
 VLF_INT kProbeUnit = 15;          // reflection probes of mirror objects
 VLF_INT kShadowUnit = 16;         // of hard shadows: distances of objects, opacity, of the room
-VLF_INT kUnits = 17;
+VLF_INT kSkyUnit = 17;
+VLF_INT kUnits = 18;
 VLF_INT kPictureUnit = 0;  // of picture_mean.frag, as are these uniforms
 VLF_INT kSizeLocation = 0;
 VLF_INT kWeightLocation = 1;
@@ -102,6 +103,9 @@ struct ViewData {
     vec4 tone;        // factor, kind of output (kWrite...), bias of the level of detail of textures,
                       // factor after the tone curve
     ivec4 trace;      // nodes of the room's hierarchy
+    vec4 skyRight;    // a pixel at (x, y) of the clip space looks along x right + y up + ahead;
+    vec4 skyUp;       // w of the first: turn of the environment's picture, of the whole circle
+    vec4 skyAhead;
 };
 
 // A radiance field.
@@ -132,7 +136,7 @@ struct ReceiverData {
 // The light that hard shadows fall away from.
 struct ShadowData {
     mat4 clipFromWorld;
-    vec4 light;   // position
+    vec4 light;   // position; w: of a spot the cosine of its outer cone, else 0
     vec4 normal;  // zero where it shines all round; w: width of a texel a metre from the light
 };
 
@@ -151,7 +155,7 @@ struct ObjectsData {
 static_assert(4 * kGridTexels == kGridSide * kGridSide * kGridSide);
 static_assert(sizeof(ShadowData) == 64 + 2 * 16);
 static_assert(sizeof(ObjectsData) == 5 * 16 + kMostReceivers * 5 * 16);
-static_assert(sizeof(ViewData) == 64 + 3 * 16);
+static_assert(sizeof(ViewData) == 64 + 6 * 16);
 static_assert(sizeof(RadianceData) == 4 * 16);
 static_assert(sizeof(MaterialData) == 5 * 16);
 }  // namespace vlf::shared

@@ -1,5 +1,8 @@
 // What a chain of reflections shows; as render/cpu/field_shader.cpp.
 #include "path_step.glsl"
+#ifdef SKY
+#include "sky.glsl"
+#endif
 #include "glass_step.glsl"
 
 const int kMaxReflections = 16;
@@ -21,7 +24,13 @@ vec3 tracedRadiance(TracedPath path) {
     vec3 seen = vec3(0);
     TraceHit hit;
     for (int reflections = 1; reflections <= kMaxReflections; ++reflections) {
-        if (isDark(path.throughput) || !traceAll(path.origin, path.direction, hit)) break;
+        if (isDark(path.throughput)) break;
+        if (!traceAll(path.origin, path.direction, hit)) {
+#ifdef SKY
+            seen += path.throughput * skyRadiance(path.direction);
+#endif
+            break;
+        }
 #ifdef OBJECTS
         HitSurface s = surfaceAt(hit, toBody(body, path.direction));
 #else

@@ -1,0 +1,24 @@
+#pragma once
+// The environment of a scene on the command line.
+
+#include "vlf/scene/scene.h"
+
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+namespace vlf::app {
+
+struct EnvironmentOptions {
+    std::string source;  ///< picture, or radiance as R,G,B; empty: none
+    float scale = 1;
+    float turn = 0;  ///< degrees
+};
+
+/// --environment, --environment-scale and --environment-turn; `options` must outlive the parsing.
+void addEnvironmentOptions(CLI::App& command, EnvironmentOptions& options);
+
+/// Puts it about the scene. Throws as readEnvironment.
+void surround(Scene& scene, const EnvironmentOptions& options);
+
+}  // namespace vlf::app
