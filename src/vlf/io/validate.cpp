@@ -128,8 +128,8 @@ void checkEnvironment(const Environment& e, const std::string& path) {
     const Checker check(path, "environment"), pixels(path, "sky pixels");
     check(isLight(e.radiance) && std::isfinite(e.turn), "is not finite or negative");
     check(e.picture.width >= 0 && e.picture.height >= 0 && e.picture.width <= kMaxImageSize &&
-              e.picture.height <= kMaxImageSize,
-          "has a size outside 0 to 65536");
+              e.picture.height <= kMaxImageSize && (e.picture.width > 0) == (e.picture.height > 0),
+          "has a size outside 0 to 65536, or of one side only");
     const std::size_t count =
         static_cast<std::size_t>(e.picture.width) * static_cast<std::size_t>(e.picture.height);
     pixels(e.picture.pixels.size() == count, "has not as many pixels as its size says");

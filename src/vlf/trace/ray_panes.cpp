@@ -65,7 +65,8 @@ Transmittance RayScene::transmittance(const Ray& ray) const {
 }
 
 void RayScene::transmittance(std::span<const Ray> rays, std::span<Vec3> colours) const {
-    std::vector<std::uint8_t> blocked(rays.size());
+    thread_local std::vector<std::uint8_t> blocked;
+    blocked.resize(rays.size());
     (impl_->panes ? impl_->panes->others : *this).occluded(rays, blocked);
     for (std::size_t i = 0; i < rays.size(); ++i)
         colours[i] = blocked[i]      ? Vec3(0)

@@ -201,8 +201,8 @@ TEST(RequireMemory, CountsTheTilesOfSmallMirrors) {
         b.quad({-0.9f + 0.18f * static_cast<float>(i % 10), 0.1f * static_cast<float>(i / 10), 0},
                {0.002f, 0, 0}, {0, 0.002f, 0}, mirror);
     BakeParams p = quick();
-    p.radianceDirections = 129;
-    p.radianceCells = 128;
+    p.radianceDirections = 513;
+    p.radianceCells = 256;
     Progress progress;
     const BakeState state = makeState(b.scene(), p, progress);
     const std::uint64_t byArea = predictMemory(b.scene(), p).total();
