@@ -32,6 +32,12 @@ struct LightReceiver {
 /// Entry i of unwrap.texels.
 LightReceiver texelReceiver(const Scene& scene, const Unwrap& unwrap, std::size_t i);
 
+/// ∫ (n·ω)⁺ / π over the directions above the surface, n being the shading normal. Divided by
+/// it a receiver's response integrates to one, as that of the bundles' ratio does.
+inline float receiverLobe(const Vec3& shading, const Vec3& geometric) {
+    return 0.5f * (1 + glm::dot(shading, geometric));
+}
+
 /// Marks rays that something in the way of `lights` blocks, besides the room: blocked[i] = 1.
 /// Others are left alone.
 using ExtraOccluder = std::function<void(std::span<const Ray>, std::span<std::uint8_t> blocked)>;
