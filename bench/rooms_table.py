@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Rooms of all kinds, baked and rendered beside path tracing: a table of docs/benchmarks.md.
+"""Rooms of all kinds, baked and rendered beside path tracing, as a table.
 
     bench/rooms_table.py build/release rooms.json [--presets draft standard] [--spp 1024]
 

@@ -262,7 +262,8 @@ void IncidentLightFinder::addBeams(const Vec3& point, const Pattern& pattern, co
     for (std::size_t i = 0; i < scratch.beams.size(); ++i) {
         if (scratch.blocked[i]) continue;
         const Sh<float> basis = shBasis(scratch.beams[i].toLight);
-        for (int f = 0; f < kMaxShCount; ++f) light[f] += basis[f] * scratch.passed[i] * scratch.beams[i].irradiance;
+        for (int f = 0; f < kMaxShCount; ++f)
+            light[f] += basis[f] * scratch.passed[i] * scratch.beams[i].irradiance;
     }
 }
 

@@ -142,9 +142,9 @@ void LightExchange::findShadows() {
     for (const Body& body : bodies_)
         samples = std::max(samples, body.object->settings.directSamples);
     if (!casters_.empty()) {
-        const TexelLoss& loss =
-            softShadows_.find(scene_, roomRays_, texels_, coverage_, casterInstances_, casterSpheres_,
-                            kShadowSamples * samples, kSlightShadow * luminance(meanIrradiance_));
+        const TexelLoss& loss = softShadows_.find(
+            scene_, roomRays_, texels_, coverage_, casterInstances_, casterSpheres_,
+            kShadowSamples * samples, kSlightShadow * luminance(meanIrradiance_));
         for (std::size_t i = 0; i < loss.entries.size(); ++i)
             if (loss.loss[i] != Vec3(0))
                 shadows_.push_back({texels_.unwrap.texels[loss.entries[i]], -loss.loss[i]});

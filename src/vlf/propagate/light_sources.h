@@ -93,7 +93,8 @@ struct LightSources {
     /// What a ray over `depth` mirrors sees of the environment and direct light does not have.
     Vec3 outside(const Vec3& direction, int depth, bool allPlanar, bool behindPanes) const {
         if (!sky || allApart) return Vec3(0);
-        return covers(depth, allPlanar, behindPanes) ? sky->sky.smooth(direction) : sky->sky.radiance(direction);
+        return covers(depth, allPlanar, behindPanes) ? sky->sky.smooth(direction)
+                                                     : sky->sky.radiance(direction);
     }
 };
 

@@ -17,9 +17,9 @@ namespace {
 // and its share of the coded file; per ray of a bundle the layers that it meets.
 constexpr double kBase = 12e6, kPerTriangle = 255, kPerTexel = 400, kPerElement = 6.5,
                  kPerRay = 140;
-constexpr double kPerTexelRefined = 160;   // accumulators that are kept as they are
-constexpr double kPerSkyPixel = 36;        // itself, and twice what chooses by its brightness
-constexpr double kAtlasOverhead = 1.6;     // gutters, gaps, texels cut by edges
+constexpr double kPerTexelRefined = 160;    // accumulators that are kept as they are
+constexpr double kPerSkyPixel = 36;         // itself, and twice what chooses by its brightness
+constexpr double kAtlasOverhead = 1.6;      // gutters, gaps, texels cut by edges
 constexpr double kRadianceOverhead = 1.25;  // whole tiles, guard band; measured for m = 4
 
 /// What memory grows with.

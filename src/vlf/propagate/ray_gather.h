@@ -18,17 +18,17 @@ namespace vlf {
 /// Longest chain of mirrors and glass followed; what is left of the light then is dropped.
 inline constexpr int kMaxReflections = 16;
 
-/// Chance with which light of many paths is followed by way of a mirror of this reflectance: of weak
-/// ones some, which then stand for all. What chance adds to the variance is at most a tenth of the
-/// square of the light seen.
+/// Chance with which light of many paths is followed by way of a mirror of this reflectance: of
+/// weak ones some, which then stand for all. What chance adds to the variance is at most a
+/// sixteenth of the square of the light seen.
 inline float chanceToFollow(const Vec3& reflectance) {
     return std::min(1.0f, 2 * maxComponent(reflectance));
 }
 
 /// Follows rays over mirrors and glass and adds the radiance found to their receivers. Of the
 /// directions in which a rough mirror reflects, one is drawn; so is reflection or transmission.
-/// Punctual lights and the bright part of the environment are sought from rough mirrors besides, one
-/// of the former and one direction of the latter.
+/// Punctual lights and the bright part of the environment are sought from rough mirrors besides,
+/// one of the former and one direction of the latter.
 class RayGatherer {
   public:
     RayGatherer(const Scene& scene, const RayScene& rays, const Unwrap& unwrap,
@@ -36,8 +36,8 @@ class RayGatherer {
         : scene_(scene), rays_(rays), unwrap_(unwrap), sources_(sources) {}
 
     /// What the mirror sights of one subfield come to see, to the samples that the sweep has
-    /// counted. `radiance`: diffuse radiance leaving each texel. Emission, and the environment where
-    /// rays leave the scene, are added where the direct light does not have them already
+    /// counted. `radiance`: diffuse radiance leaving each texel. Emission, and the environment
+    /// where rays leave the scene, are added where the direct light does not have them already
     /// (LightSources::covers).
     void gatherFromMirrors(const ParallelSubfield& subfield, const std::vector<MirrorSight>& sights,
                            RandomStream& random, const TexelBuffer& radiance,
@@ -56,7 +56,7 @@ class RayGatherer {
         Vec3 throughput;
         int steps = 0;  // reflections and transmissions
         bool behindPanes = false;
-        float lobe = 0;  // density of its direction by the rough mirror that it leaves, sr⁻¹; 0: none
+        float lobe = 0;  // density of its direction by the rough mirror it leaves, sr⁻¹; 0: none
     };
     // A point of a rough mirror and how it is seen.
     struct RoughPoint {

@@ -15,8 +15,8 @@ struct OpenSides {
 
 /// Classifies both sides of every group by a flood of particles that start at the emitters, at
 /// punctual lights, and outside where there is an environment, and bounce about without loss. The
-/// front of a group counts as open unless only its back is reached; both sides of glass do. `groupOf`
-/// gives the group of each triangle. Deterministic for a seed.
+/// front of a group counts as open unless only its back is reached; both sides of glass do.
+/// `groupOf` gives the group of each triangle. Deterministic for a seed.
 std::vector<OpenSides> findOpenSides(const Scene& scene, const RayScene& rays,
                                      const std::vector<ChartGroup>& groups,
                                      const std::vector<std::uint32_t>& groupOf, std::uint64_t seed);
