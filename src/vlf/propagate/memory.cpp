@@ -15,7 +15,7 @@ namespace {
 // Bytes, measured: of the program; per triangle its vertices, faces, adjacency and acceleration
 // structure; per atlas entry its points, accumulators and irradiances; per radiance element itself
 // and its share of the coded file; per ray of a bundle the layers that it meets.
-constexpr double kBase = 12e6, kPerTriangle = 255, kPerTexel = 420, kPerElement = 7,
+constexpr double kBase = 12e6, kPerTriangle = 255, kPerTexel = 420, kPerElement = 6.5,
                  kPerRay = 140;
 constexpr double kPerTexelRefined = 160;    // accumulators that are kept as they are
 constexpr double kPerSkyPixel = 36;         // itself, and twice what chooses by its brightness
