@@ -113,12 +113,12 @@ TEST(PathTracing, AgreesInTheMirrorRoom) {
 }
 
 TEST(PathTracing, AgreesBesideRoughMirrors) {
-    const SolvedScene s(generateScene("gloss"), standardTransport(25000));
+    const SolvedScene s(generateScene("gloss"), standardTransport(15000));
     expectAgreement("gloss", errorAgainstPathTracing(s, anywhere), 0.03, 0.004);
 }
 
 TEST(PathTracing, AgreesBesideGlass) {
-    const SolvedScene s(generateScene("glass"), standardTransport(15000));
+    const SolvedScene s(generateScene("glass"), standardTransport(6000));
     // What glass receives nobody needs.
     const auto isDiffuse = [&](std::size_t i) {
         const Chart& chart = s.state.unwrap.charts[s.state.unwrap.texelChart[i]];

@@ -9,6 +9,8 @@ namespace vlf {
 
 namespace {
 
+constexpr std::size_t kNeighbours = 8;  // texels, for which lights are weighed together
+
 /// What a pass needs to know of the room.
 struct Room {
     const Scene& scene;
@@ -22,6 +24,19 @@ std::size_t blockCount(const Unwrap& unwrap) {
     return (unwrap.texels.size() + kDirectBlock - 1) / kDirectBlock;
 }
 
+/// Texels from the i-th on that follow one another in a row of a flat chart, few of them.
+std::vector<LightReceiver> neighboursFrom(const Room& room, std::size_t i, std::size_t end) {
+    const Unwrap& u = room.unwrap;
+    std::vector<LightReceiver> receivers;
+    for (std::size_t k = i; k < std::min(end, i + kNeighbours); ++k) {
+        const bool adjoins =
+            u.texelChart[k] == u.texelChart[i] && u.texels[k] == u.texels[i] + (k - i);
+        if (k > i && (!adjoins || !u.charts[u.texelChart[i]].planar)) break;
+        receivers.push_back(texelReceiver(room.scene, u, k));
+    }
+    return receivers;
+}
+
 /// Adds samplesToAdd(i) samples to texel i, for those that the pass has not done. Whether it is
 /// complete; else a pause is due.
 template <class SamplesToAdd>
@@ -32,17 +47,21 @@ bool runPass(const Room& room, DirectLight& light, ProgressCounter& counter,
     const std::size_t texels = room.unwrap.texels.size();
     return resumeLoop(light.done, blockCount(room.unwrap), 4, counter, [&](std::size_t block) {
         LightGatherer gatherer = prototype;
+        std::vector<LightReceiver> receivers;
         const std::size_t end = std::min(texels, (block + 1) * kDirectBlock);
-        for (std::size_t i = block * kDirectBlock; i < end; ++i) {
-            const int samples = samplesToAdd(i);
-            if (samples <= 0) continue;
-            const DirectEstimate more =
-                gatherer.irradiance(texelReceiver(room.scene, room.unwrap, i), samples,
-                                    static_cast<std::uint64_t>(light.pass));
-            if (light.pass == 0)
-                light.estimates[i] = more;
-            else
-                light.estimates[i].merge(more);
+        for (std::size_t i = block * kDirectBlock; i < end; i += receivers.size()) {
+            receivers = neighboursFrom(room, i, end);
+            gatherer.weighTogether(receivers);
+            for (std::size_t k = 0; k < receivers.size(); ++k) {
+                const int samples = samplesToAdd(i + k);
+                if (samples <= 0) continue;
+                const DirectEstimate more = gatherer.irradiance(
+                    receivers[k], samples, static_cast<std::uint64_t>(light.pass));
+                if (light.pass == 0)
+                    light.estimates[i + k] = more;
+                else
+                    light.estimates[i + k].merge(more);
+            }
         }
     });
 }

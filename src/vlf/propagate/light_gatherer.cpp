@@ -20,11 +20,10 @@ constexpr float kAgreement = 0.1f;  // relative spread of form factors over a te
 constexpr std::array<std::size_t, kTexelGrid> kLatinSquare{1, 3, 0, 2};  // column taken in each row
 constexpr float kMinSamples = 3;
 constexpr float kLittle = 0.01f;     // share of the likely effect of all lights
-constexpr std::size_t kCrowd = 64;   // lights; of more, those share samples that have less than
-constexpr float kApart = 1.0f / 16;  // this share of the effect
 constexpr float kGrazing = 1e-5f;    // cosine: a point in a light's own plane gets nothing from it
 constexpr float kSlack = 0.01f;      // texels
 constexpr float kNearField = 0.25f;  // distance, in sides of a square of a light's area
+constexpr float kCompact = 0.1f;  // radius of a light by its distance: much the same from all of it
 
 struct LightSample {
     Vec3 point, normal;  // world
@@ -98,108 +97,60 @@ Vec3 LightGatherer::irradianceBlocked(const LightReceiver& receiver, int samples
 DirectEstimate LightGatherer::estimateAll(const LightReceiver& receiver, int samples,
                                           std::uint64_t pass) {
     const ThreadMemory<Memory> lent(memory_);
-    memory_.effects.clear();
-    float sum = 0;
-    for (std::size_t i = 0; i < sources_.images.size(); ++i) {
-        const bool counts = counted_.empty() || counted_[i] != 0;
-        sum += memory_.effects.emplace_back(counts ? likelyEffect(receiver, sources_.images[i])
-                                                   : 0.0f);
-    }
-    DirectEstimate total{.unoccluded = sum, .samples = samples};
-    if (sum <= 0) return total;
+    if (!shared_) weigh(receiver, memory_.weights);
+    const Weights& weights = shared_ ? *shared_ : memory_.weights;
+    DirectEstimate total{.unoccluded = weights.sum, .samples = samples};
+    if (weights.sum <= 0) return total;
     RandomStream random(seed_ + pass, receiver.key);
     const auto wanted = [&](float effect) {
-        const float share = effect / sum;
+        const float share = effect / weights.sum;
         return std::max(static_cast<float>(samples) * share,
                         std::min(kMinSamples, kMinSamples * share / kLittle));
     };
-    // Lights of some effect get a few samples whatever the others: those may be hidden. Where there
-    // are many, all but the strongest share theirs.
-    const bool crowd = sources_.lights.size() > kCrowd;
-    float rest = 0;
-    for (std::size_t i = 0; i < memory_.effects.size(); ++i) {
-        if (memory_.effects[i] <= 0) continue;
-        if (crowd && memory_.effects[i] < kApart * sum) {
-            rest += memory_.effects[i];
-            continue;
-        }
+    for (const std::uint32_t i : weights.apart) {
         // Of little effect, one is picked with a probability below one.
-        const float n = wanted(memory_.effects[i]);
-        memory_.effects[i] = 0;
+        const float n = wanted(weights.effects[i]);
         if (n < 1 && random.next() >= n) continue;
         total.add(gather(receiver, sources_.images[i], std::max(1, static_cast<int>(std::ceil(n))),
                          random),
                   std::max(1.0f, 1 / n));
     }
-    if (rest > 0)
-        total.add(gatherTogether(receiver, rest, static_cast<int>(std::ceil(wanted(rest))), random),
+    if (!weights.together.empty())
+        total.add(gatherTogether(receiver, weights,
+                                 static_cast<int>(std::ceil(wanted(weights.upTo.back()))), random),
                   1);
     return total;
 }
 
-/// Irradiance from the images of which memory_.effects (of this sum) is not 0 by n samples in all:
-/// an image is drawn in proportion to its effect, evenly spaced in their order.
-DirectEstimate LightGatherer::gatherTogether(const LightReceiver& r, float effect, int n,
+/// Irradiance from the images that share samples by n in all: an image is drawn in proportion to
+/// its effect, evenly spaced in their order. The variance of samples that are even in this way is
+/// that of the steps between them (W. G. Cochran, Sampling Techniques, 1977, section 8.9).
+DirectEstimate LightGatherer::gatherTogether(const LightReceiver& r, const Weights& weights, int n,
                                              RandomStream& random) {
-    const float step = effect / static_cast<float>(n);
-    float next = random.next() * step, sum = 0, squares = 0;
+    const float effect = weights.upTo.back(), step = effect / static_cast<float>(n);
+    float next = random.next() * step, squares = 0, last = -1, steps = 0;
     DirectEstimate total;
-    for (std::size_t i = 0; i < memory_.effects.size(); ++i) {
-        sum += memory_.effects[i];
+    while (next < effect) {
+        const auto found = std::upper_bound(weights.upTo.begin(), weights.upTo.end(), next);
+        const std::uint32_t i = weights.together[found - weights.upTo.begin()];
         int drawn = 0;
-        for (; next < sum; next += step) ++drawn;
-        if (drawn == 0) continue;
+        for (; next < *found; next += step) ++drawn;
+        const LightImage& image = sources_.images[i];
         const auto weight = static_cast<float>(drawn) / static_cast<float>(n);
-        const Vec3 value = gather(r, sources_.images[i], drawn, random).value;
-        const Vec3 mean = effect / memory_.effects[i] * value;
+        const Vec3 value = isCompact(r, image) ? gatherBySamples(r, image, drawn, random).value
+                                               : gather(r, image, drawn, random).value;
+        const Vec3 mean = effect / weights.effects[i] * value;
         total.value += weight * mean;
-        squares += weight * luminance(mean) * luminance(mean);
+        const float here = luminance(mean);
+        squares += weight * here * here;
+        if (last >= 0) steps += weight * (here - last) * (here - last) / 2;
+        last = here;
     }
     const float light = luminance(total.value);
     total.variance =
         n > 1 ? std::max(0.0f, squares - light * light) / static_cast<float>(n - 1) : light * light;
-    total.evenVariance = total.variance;
+    total.evenVariance = n > 1 ? steps / static_cast<float>(n - 1) : total.variance;
     return total;
-}
-
-/// Roughly the unoccluded irradiance's luminance; zero only if it certainly is.
-float LightGatherer::likelyEffect(const LightReceiver& r, const LightImage& image) const {
-    const Light& light = sources_.lights[image.light];
-    if (light.kind == LightKind::punctual) return likelyPunctual(r, image);
-    if (light.kind == LightKind::sky) return likelySky(r, image);
-    const Vec3 toLight = image.imageFromWorld.point(light.centre) - r.centre;
-    const float reach = light.radius + r.radius;
-    const float squared = std::max(glm::dot(toLight, toLight), 0.25f * reach * reach);
-    const float distance = std::sqrt(squared), slack = std::min(1.0f, reach / distance);
-    if (r.planar && glm::dot(r.normal, toLight) < -reach) return 0;
-    const float cosReceiver = glm::dot(r.normal, toLight) / distance;
-    const float cosLight = -glm::dot(image.imageFromWorld.vector(light.normal), toLight) / distance;
-    const float spread =
-        light.planar ? 0.0f : std::acos(std::clamp(light.normalCosine, -1.0f, 1.0f));
-    if (light.planar && cosLight < -slack) return 0;
-    if (image.depth > 0 && !mayBeSeenInMirror(r, image)) return 0;
-    const float facing = std::clamp(cosReceiver + 0.5f * slack, 0.02f, 1.0f);
-    const float emitting = std::clamp(cosLight + 0.5f * slack + spread, 0.02f, 1.0f);
-    return luminance(light.radiance * image.throughput) * light.area * facing * emitting / squared;
-}
-
-/// Whether lines from the receiver to the image may cross the rectangle of the first mirror.
-bool LightGatherer::mayBeSeenInMirror(const LightReceiver& r, const LightImage& image) const {
-    const Chart& mirror = unwrap_.charts[image.mirror[0]];
-    const Light& light = sources_.lights[image.light];
-    const Vec3 centre = image.imageFromWorld.point(light.centre);
-    const float plane = sources_.mirrorOffset[image.mirror[0]];
-    const float before = glm::dot(mirror.normal, r.centre) - plane;
-    const float behind = plane - glm::dot(mirror.normal, centre);
-    if (before < -r.radius || behind < -light.radius) return false;
-    const float share = std::max(before, 0.0f) / std::max(before + behind, 1e-20f);
-    const Vec2 crossing = mirror.texelCoordinates(r.centre + share * (centre - r.centre));
-    // How far the crossing moves as the ends move within their spheres, seen aslant.
-    const float cosine = std::max(before + behind, 1e-20f) / glm::distance(centre, r.centre);
-    const float reach = (share * light.radius + (1 - share) * r.radius) / cosine;
-    const Vec2 margin(reach * glm::length(mirror.uAxis), reach * glm::length(mirror.vAxis));
-    return crossing.x > -margin.x && crossing.x < mirror.width + margin.x &&
-           crossing.y > -margin.y && crossing.y < mirror.height + margin.y;
 }
 
 LightGatherer::Point LightGatherer::surfacePoint(const LightReceiver& r, std::size_t i) const {
@@ -222,6 +173,20 @@ DirectEstimate LightGatherer::gather(const LightReceiver& r, const LightImage& i
     if (sources_.lights[image.light].kind != LightKind::surface)
         return gatherBeams(r, image, n, random);
     if (hasFormFactor(sources_.lights[image.light])) return gatherByFormFactor(r, image, n, random);
+    return gatherBySamples(r, image, n, random);
+}
+
+/// Whether a surface is so small and far that its form factor, which costs more than samples of it,
+/// would spare little of their noise.
+bool LightGatherer::isCompact(const LightReceiver& r, const LightImage& image) const {
+    const Light& light = sources_.lights[image.light];
+    return light.kind == LightKind::surface &&
+           light.radius + r.radius <
+               kCompact * glm::distance(image.imageFromWorld.point(light.centre), r.centre);
+}
+
+DirectEstimate LightGatherer::gatherBySamples(const LightReceiver& r, const LightImage& image,
+                                              int n, RandomStream& random) {
     const float reach = nearReach(r, image);
     drawSamples(r, image, n, reach, random);
     findVisible();

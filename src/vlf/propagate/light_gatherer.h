@@ -10,6 +10,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -56,6 +57,10 @@ class LightGatherer {
     /// Of LightSources::images only those whose entry is not 0 count from now on; empty: all.
     void setImages(std::span<const std::uint8_t> counted) { counted_ = counted; }
 
+    /// Where lights are many, they are weighed once for all of these neighbours, which come next;
+    /// an empty span: each receiver for itself again.
+    void weighTogether(std::span<const LightReceiver> receivers);
+
     /// Irradiance by about `samples` shadow rays; `pass` tells independent estimates of the same
     /// receiver apart.
     DirectEstimate irradiance(const LightReceiver& receiver, int samples, std::uint64_t pass);
@@ -77,9 +82,23 @@ class LightGatherer {
         Vec3 radiance, throughput;  // throughput: of mirrors or panes on the way; 0 if occluded
     };
     enum class Counts { seen, blockedByExtra };
+    /// What the images are likely to do, which tells how many samples are theirs.
+    struct Weights {
+        std::vector<float> effects;  ///< of all
+        float sum = 0;
+        std::vector<std::uint32_t> apart,
+            together;             ///< images that have samples of their own; share
+        std::vector<float> upTo;  ///< of those that share, the effect up to and including each
+
+        void clear() {
+            effects.clear(), apart.clear(), together.clear(), upTo.clear();
+            sum = 0;
+        }
+    };
 
     DirectEstimate estimateAll(const LightReceiver& r, int samples, std::uint64_t pass);
-    DirectEstimate gatherTogether(const LightReceiver& r, float effect, int n,
+    void weigh(const LightReceiver& receiver, Weights& weights) const;
+    DirectEstimate gatherTogether(const LightReceiver& r, const Weights& weights, int n,
                                   RandomStream& random);
     float likelyEffect(const LightReceiver& r, const LightImage& image) const;
     float likelyPunctual(const LightReceiver& r, const LightImage& image) const;
@@ -89,6 +108,9 @@ class LightGatherer {
     Point pointOf(const LightReceiver& r, int j, int n, float rotation) const;
     DirectEstimate gather(const LightReceiver& r, const LightImage& image, int n,
                           RandomStream& random);
+    bool isCompact(const LightReceiver& r, const LightImage& image) const;
+    DirectEstimate gatherBySamples(const LightReceiver& r, const LightImage& image, int n,
+                                   RandomStream& random);
     DirectEstimate gatherByFormFactor(const LightReceiver& r, const LightImage& image, int n,
                                       RandomStream& random);
     DirectEstimate meanOfSamples(int n) const;
@@ -122,8 +144,9 @@ class LightGatherer {
     ExtraOccluder extra_;
     std::span<const std::uint8_t> counted_;
     Counts counts_ = Counts::seen;
+    std::optional<Weights> shared_;
     struct Memory {
-        std::vector<float> effects;
+        Weights weights;
         std::vector<Ray> shadowRays;
         std::vector<std::uint8_t> blocked, blockedByExtra;
         std::vector<Vec3> passed;
