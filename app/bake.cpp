@@ -152,6 +152,40 @@ void write(const Options& options, const BakedRoom& room, const BakeCheckpoint& 
     checkpoint.remove();
 }
 
+/// Where files beside the output go; beside a device none may.
+std::string folderOf(const std::string& output) {
+    namespace fs = std::filesystem;
+    std::error_code ignored;
+    if (fs::exists(output, ignored) && !fs::is_regular_file(output, ignored))
+        return fs::temp_directory_path().string();
+    const fs::path folder = fs::path(output).parent_path();
+    return folder.empty() ? "." : folder.string();
+}
+
+/// What --max-memory allows, and where that goes which does not fit.
+struct MemoryLimit {
+    MemoryLimit(double gibibytes, const std::string& output)
+        : bytes(static_cast<std::uint64_t>(gibibytes * 1024 * 1024 * 1024)) {
+        scratch.folder = folderOf(output);
+        scratch.largest = bytes > 0 ? bytes / 4 : SIZE_MAX;  // there are two radiance fields
+    }
+
+    std::uint64_t bytes;  ///< 0: any
+    ScratchPlace scratch;
+};
+
+/// Throws if the output's folder has no room for so many bytes more.
+void requireDisk(const std::string& output, std::uint64_t bytes) {
+    std::error_code unknown;
+    const auto space = std::filesystem::space(folderOf(output), unknown);
+    if (bytes == 0 || unknown || space.available >= bytes) return;
+    throw FileError(
+        output, fmt::format("the bake needs {:.2g} GB beside it for a while, of which {:.2g} are "
+                            "free: make room, or allow more memory (--max-memory)",
+                            1e-9 * static_cast<double>(bytes),
+                            1e-9 * static_cast<double>(space.available)));
+}
+
 /// Empty if the text is an interval, else what is wrong with it (a CLI11 validator).
 std::string checkInterval(const std::string& text) {
     double seconds = 0;
@@ -169,11 +203,11 @@ void run(const Options& options, const Globals& globals) {
     room.scene = readScene(options, globals);
     const Camera camera =
         chooseCamera(options.camera, room.scene.cameras, room.scene.cameras.front());
-    const auto maxMemory = static_cast<std::uint64_t>(options.maxMemory * 1024 * 1024 * 1024);
-    if (maxMemory > 0) requireMemory(room.scene, params, maxMemory);
+    const MemoryLimit limit(options.maxMemory, options.output);
+    if (limit.bytes > 0) requireMemory(room.scene, params, limit.bytes, &limit.scratch);
     const std::string hash = sceneHash(room.scene);
     const BakeCheckpoint checkpoint(output.checkpointPath(), params, hash);
-    BakeSolution solution = beginning(checkpoint, options.resume, globals.quiet);
+    BakeSolution solution = beginning(checkpoint, limit.scratch, options.resume, globals.quiet);
     const bool resumed = options.resume && checkpoint.exists();
     BakeReport report;
     std::uint64_t predictedMemory = 0;
@@ -181,8 +215,10 @@ void run(const Options& options, const Globals& globals) {
         CheckpointProgress progress(globals.quiet, checkpoint, options.checkpointEvery);
         const auto keep = [&](const BakeState& state) {
             if (predictedMemory == 0) {
-                predictedMemory = predictMemory(state).total();
-                if (maxMemory > 0) requireMemory(state, maxMemory);
+                const MemoryNeed need = predictMemory(state);
+                predictedMemory = need.total();
+                if (limit.bytes > 0) requireMemory(state, limit.bytes);
+                requireDisk(options.output, need.scratch);
             }
             progress.keep(state);
         };
@@ -211,7 +247,11 @@ void addBake(CLI::App& app, const Globals& globals) {
     command->add_option("-o,--output", options->output, "Field file to write (.vlf)")->required();
     addEnvironmentOptions(*command, options->environment);
     addQualityOptions(*command, options->quality);
-    command->add_option("--max-memory", options->maxMemory, "Refuse to need more, in GiB")
+    command
+        ->add_option(
+            "--max-memory", options->maxMemory,
+            "Most memory to need, in GiB: what is larger is kept in files beside the output "
+            "meanwhile, or refused")
         ->check(CLI::PositiveNumber);
     command->add_option("--isa", options->instructionSet,
                         "Instruction set of the sweeps, e.g. AVX2 (default: the best there is)");

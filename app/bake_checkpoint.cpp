@@ -100,11 +100,11 @@ bool BakeCheckpoint::exists() const {
     return !path_.empty() && fs::exists(path_, ignored);
 }
 
-BakeSolution BakeCheckpoint::read() const {
+BakeSolution BakeCheckpoint::read(const ScratchPlace& scratch) const {
     try {
         const CheckpointReader reader(path_);
         reader.require(identity_);
-        BakeSolution solution;
+        BakeSolution solution = solutionIn(scratch);
         visitSolution(solution, reader);
         return solution;
     } catch (const InputError& e) {
@@ -113,9 +113,9 @@ BakeSolution BakeCheckpoint::read() const {
 }
 
 void BakeCheckpoint::write(const BakeSolution& solution) const {
-    CheckpointWriter writer(identity_);
+    CheckpointWriter writer(path_, identity_);
     visitSolution(solution, writer);
-    writer.write(path_);
+    writer.commit();
 }
 
 void BakeCheckpoint::remove() const {
@@ -123,18 +123,19 @@ void BakeCheckpoint::remove() const {
     if (!path_.empty()) fs::remove(path_, ignored);
 }
 
-BakeSolution beginning(const BakeCheckpoint& checkpoint, bool resume, bool quiet) {
+BakeSolution beginning(const BakeCheckpoint& checkpoint, const ScratchPlace& scratch, bool resume,
+                       bool quiet) {
     const bool exists = checkpoint.exists();
     if (exists && !resume)
         throw InputError(checkpoint.path() +
                          " keeps a bake that was interrupted: go on with --resume, or delete it to "
                          "begin anew");
-    if (!resume) return {};
+    if (!resume) return solutionIn(scratch);
     if (!exists) {
         if (!quiet) fmt::print(stderr, "no checkpoint to resume from: beginning anew\n");
-        return {};
+        return solutionIn(scratch);
     }
-    BakeSolution solution = checkpoint.read();
+    BakeSolution solution = checkpoint.read(scratch);
     if (!quiet) fmt::print(stderr, "going on from {}: {}\n", checkpoint.path(), placeOf(solution));
     return solution;
 }

@@ -37,8 +37,9 @@ class BakeCheckpoint {
     const std::string& path() const { return path_; }
     bool exists() const;
 
-    /// Throws InputError if it is damaged or of another bake, saying what differs.
-    BakeSolution read() const;
+    /// With radiance fields in `scratch` where they are large. Throws InputError if it is damaged
+    /// or of another bake, saying what differs.
+    BakeSolution read(const ScratchPlace& scratch) const;
 
     /// Throws FileError; a checkpoint that was there is then left as it was.
     void write(const BakeSolution& solution) const;
@@ -52,7 +53,8 @@ class BakeCheckpoint {
 
 /// What a bake goes on from: the checkpoint with `resume`, nothing if there is none, which is said.
 /// Throws InputError if there is one without `resume`: work that was kept is not lost unasked.
-BakeSolution beginning(const BakeCheckpoint& checkpoint, bool resume, bool quiet);
+BakeSolution beginning(const BakeCheckpoint& checkpoint, const ScratchPlace& scratch, bool resume,
+                       bool quiet);
 
 /// Shows a bake's progress and keeps its state: every so often, and when it is interrupted.
 class CheckpointProgress : public ConsoleProgress {

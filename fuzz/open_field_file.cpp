@@ -18,12 +18,14 @@ std::vector<OpenChunk> openFieldFile(Bytes bytes) {
 }
 
 Blob sealFieldFile(const std::vector<OpenChunk>& chunks) {
-    ChunkFileWriter writer;
+    MemorySink file;
+    ChunkFileWriter writer(file);
     for (const OpenChunk& chunk : chunks)
         writer.add(
             chunk.name, chunk.blocks.size(), [&](std::size_t i) { return chunk.blocks[i]; },
             chunk.critical);
-    return writer.take();
+    writer.finish();
+    return file.bytes();
 }
 
 }  // namespace vlf::fuzz

@@ -407,10 +407,18 @@ class BadInput(Case):
         self.bake_fails("cornell.obj", BAD_INPUT, ["GiB", "--texel"], "a.vlf", "--texel", "0.002",
                         "--max-memory", "0.2")
 
-    def test_mirrors_that_take_too_much_memory_are_refused_with_advice(self):
+    def test_mirrors_that_take_too_much_memory_are_kept_in_a_file_meanwhile(self):
         self.run_vlf("scene", "mirror-room", "-o", ".")
-        self.bake_fails("mirror-room.obj", BAD_INPUT, ["GiB", "--radiance-cells"], "a.vlf",
-                        "--radiance-cells", "1024", "--max-memory", "0.2")
+        bake = ["bake", "mirror-room.obj", "--preset", "draft", "--radiance-cells", "512",
+                "--json", "report.json", "-q"]
+        self.run_vlf(*bake, "-o", "a.vlf")
+        whole = json.loads((self.folder / "report.json").read_text())
+        self.run_vlf(*bake, "-o", "b.vlf", "--max-memory", "0.1")
+        little = json.loads((self.folder / "report.json").read_text())
+        self.assertEqual((self.folder / "a.vlf").read_bytes(), (self.folder / "b.vlf").read_bytes())
+        self.assertGreater(whole["peakMemoryMiB"], 120)
+        self.assertLess(little["peakMemoryMiB"], 0.1 * 1024)
+        self.assertEqual(sorted(p.name for p in self.folder.glob(".vlf-scratch*")), [])
 
     def test_absurdly_small_texels_are_refused(self):
         self.bake_fails("cornell.obj", BAD_INPUT, ["texels"], "a.vlf", "--texel", "1e-7")

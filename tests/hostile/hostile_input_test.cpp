@@ -79,7 +79,7 @@ TEST_P(HostileInput, DamagedByChanceIsRefusedOrSound) {
 
 INSTANTIATE_TEST_SUITE_P(Formats, HostileInput,
                          testing::ValuesIn(fuzz::formats().begin(), fuzz::formats().end()),
-                         [](const auto& info) { return std::string(info.param.name); });
+                         [](const auto& test) { return std::string(test.param.name); });
 
 }  // namespace
 }  // namespace vlf

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 #include <system_error>
+#include <utility>
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -29,23 +30,6 @@ void writeAll(int file, std::span<const std::uint8_t> bytes, const std::string& 
         if (n <= 0) throw FileError(path, "cannot write: " + systemMessage(errno));
         bytes = bytes.subspan(static_cast<std::size_t>(n));
     }
-}
-
-/// Opens, writes and closes; `path` is what the user called the file.
-void writeTo(const std::string& target, int flags, std::span<const std::uint8_t> bytes,
-             const std::string& path) {
-    const int file = ::open(target.c_str(), O_WRONLY | O_CLOEXEC | flags, 0666);
-    if (file < 0) throw FileError(path, "cannot write: " + systemMessage(errno));
-    try {
-        writeAll(file, bytes, path);
-        // Some file systems report a full disk only here. EINVAL: a device that cannot be synced.
-        if (::fsync(file) != 0 && errno != EINVAL)
-            throw FileError(path, "cannot write: " + systemMessage(errno));
-    } catch (...) {
-        ::close(file);
-        throw;
-    }
-    if (::close(file) != 0) throw FileError(path, "cannot write: " + systemMessage(errno));
 }
 
 bool isNoRegularFile(const std::string& target) {
@@ -100,11 +84,54 @@ void removeLeftovers(const std::string& path) {
 }
 
 void writeFile(const std::string& path, std::span<const std::uint8_t> bytes) {
-    const std::string target = linkTarget(path);
-    if (isNoRegularFile(target)) return writeTo(target, 0, bytes, path);
-    PendingFile file(path);
-    writeTo(file.name(), O_CREAT | O_EXCL, bytes, path);
+    OutputFile file(path);
+    file.append(bytes);
     file.commit();
+}
+
+OutputFile::OutputFile(const std::string& path) : path_(path) {
+    const std::string target = linkTarget(path);
+    if (isNoRegularFile(target)) {
+        file_ = ::open(target.c_str(), O_WRONLY | O_CLOEXEC);
+    } else {
+        pending_.emplace(path);
+        file_ = ::open(pending_->name().c_str(), O_WRONLY | O_CLOEXEC | O_CREAT | O_EXCL, 0666);
+    }
+    if (file_ < 0) fail();
+}
+
+OutputFile::~OutputFile() {
+    if (file_ >= 0) ::close(file_);
+}
+
+void OutputFile::append(std::span<const std::uint8_t> bytes) {
+    if (pending_)
+        writeAll(file_, bytes, path_);
+    else
+        held_.append(bytes);
+    size_ += bytes.size();
+}
+
+void OutputFile::writeStart(std::span<const std::uint8_t> bytes) {
+    if (!pending_) {
+        held_.writeStart(bytes);
+    } else {
+        if (::lseek(file_, 0, SEEK_SET) < 0) fail();
+        writeAll(file_, bytes, path_);
+        if (::lseek(file_, 0, SEEK_END) < 0) fail();
+    }
+}
+
+void OutputFile::commit() {
+    writeAll(file_, held_.bytes(), path_);
+    // Some file systems report a full disk only here. EINVAL: a device that cannot be synced.
+    if (::fsync(file_) != 0 && errno != EINVAL) fail();
+    if (::close(std::exchange(file_, -1)) != 0) fail();
+    if (pending_) pending_->commit();
+}
+
+void OutputFile::fail() const {
+    throw FileError(path_, "cannot write: " + systemMessage(errno));
 }
 
 PendingFile::PendingFile(const std::string& path)

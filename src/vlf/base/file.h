@@ -1,7 +1,10 @@
 #pragma once
 // Whole files in one call.
 
+#include "vlf/base/byte_sink.h"
+
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -42,6 +45,31 @@ class PendingFile {
 
   private:
     std::string path_, target_, name_;
+};
+
+/// writeFile piece by piece. A device or pipe gets all of it at the end.
+class OutputFile final : public ByteSink {
+  public:
+    /// Throws FileError, as all its members do.
+    explicit OutputFile(const std::string& path);
+    ~OutputFile() override;
+    OutputFile(const OutputFile&) = delete;
+    OutputFile& operator=(const OutputFile&) = delete;
+
+    void append(std::span<const std::uint8_t> bytes) override;
+    void writeStart(std::span<const std::uint8_t> bytes) override;
+    std::uint64_t size() const override { return size_; }
+    /// Flushes it to disk and gives it its name.
+    void commit();
+
+  private:
+    void fail() const;
+
+    std::string path_;
+    std::optional<PendingFile> pending_;  ///< none: a device
+    MemorySink held_;                     ///< for the device
+    int file_ = -1;
+    std::uint64_t size_ = 0;
 };
 
 /// Throws FileError if writeFile could not but fail: `path` is a folder, or its own folder is

@@ -5,6 +5,7 @@
 // leaves such a chart: the specular radiance L(ω) (W·m⁻²·sr⁻¹) and the distance d from the surface
 // to what is seen in it. Cells are stored by tiles of m x m; only tiles that hold a cell exist.
 
+#include "vlf/base/scratch_memory.h"
 #include "vlf/field/chart.h"
 #include "vlf/field/parallel_subfield.h"
 #include "vlf/math/vector.h"
@@ -32,6 +33,8 @@ struct RadianceElement {
 };
 static_assert(sizeof(RadianceElement) == 6);
 
+using RadianceElements = std::vector<RadianceElement, ScratchAllocator<RadianceElement>>;
+
 /// A run of tiles within one row of tiles: those that one chart's projection touches there.
 struct TileRow {
     std::uint32_t chart = kNoChart;
@@ -50,12 +53,17 @@ struct RadianceField {
     /// and then by tileY; those of one chart have consecutive tileY.
     std::vector<std::uint32_t> firstRow;
     std::vector<TileRow> rows;
-    std::vector<RadianceElement> elements;
+    RadianceElements elements;
 
     bool empty() const { return lines == 0; }
     std::span<const TileRow> rowsOf(std::uint32_t direction) const {
         return {rows.data() + firstRow[direction], rows.data() + firstRow[direction + 1]};
     }
+    /// Of elements that live in a file (ScratchAllocator), lets go of the memory of these.
+    void release(std::uint64_t first, std::uint64_t count) const {
+        elements.get_allocator().release(elements.capacity(), elements.data() + first, count);
+    }
+
     /// The rows of `chart` in `direction`; empty if it has none.
     std::span<const TileRow> rowsOf(std::uint32_t direction, std::uint32_t chart) const;
 

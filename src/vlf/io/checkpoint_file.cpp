@@ -1,6 +1,5 @@
 #include "vlf/io/checkpoint_file.h"
 
-#include "vlf/base/file.h"
 #include "vlf/io/records.h"
 
 #include <algorithm>
@@ -43,12 +42,14 @@ void describe(S& s, Field<S, CheckpointTrait> t) {
     s(t.name, t.value);
 }
 
-CheckpointWriter::CheckpointWriter(const CheckpointIdentity& identity) : file_(kCompressionLevel) {
+CheckpointWriter::CheckpointWriter(const std::string& path, const CheckpointIdentity& identity)
+    : output_(path), file_(output_, kCompressionLevel) {
     addRecord(file_, kIdentityChunk, identity);
 }
 
-void CheckpointWriter::write(const std::string& path) {
-    writeFile(path, file_.take());
+void CheckpointWriter::commit() {
+    file_.finish();
+    output_.commit();
 }
 
 CheckpointReader::CheckpointReader(const std::string& path) : file_(path) {

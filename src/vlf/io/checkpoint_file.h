@@ -2,6 +2,7 @@
 // Checkpoints of unfinished work: named values and arrays in a chunk file, with what they belong
 // to. Layout: docs/file-format.md.
 
+#include "vlf/base/file.h"
 #include "vlf/io/chunk_file.h"
 #include "vlf/io/grid_chunk.h"
 
@@ -38,10 +39,12 @@ struct PlainCodec {
 /// Collects values under names of 1 to 16 characters of ASCII, each used once.
 class CheckpointWriter {
   public:
-    explicit CheckpointWriter(const CheckpointIdentity& identity);
+    /// Of the file `path`, which appears once it is committed. Throws FileError; an old file is
+    /// then left as it was.
+    CheckpointWriter(const std::string& path, const CheckpointIdentity& identity);
 
-    template <class T>
-    void operator()(const std::string& name, const std::vector<T>& values) {
+    template <class T, class A>
+    void operator()(const std::string& name, const std::vector<T, A>& values) {
         using Plain = PlainCodec<T>;
         addGrid<typename Plain::Codec>(file_, name, values, 1, Plain::encode);
     }
@@ -50,10 +53,11 @@ class CheckpointWriter {
         (*this)(name, std::vector<T>{value});
     }
 
-    /// Writes the file, once. Throws FileError; an old file is then left as it was.
-    void write(const std::string& path);
+    /// Completes the file, once. Throws FileError.
+    void commit();
 
   private:
+    OutputFile output_;
     ChunkFileWriter file_;
 };
 
@@ -66,8 +70,8 @@ class CheckpointReader {
     /// Throws InputError that tells what differs, unless the checkpoint has this identity.
     void require(const CheckpointIdentity& identity) const;
 
-    template <class T>
-    void operator()(const std::string& name, std::vector<T>& values) const {
+    template <class T, class A>
+    void operator()(const std::string& name, std::vector<T, A>& values) const {
         using Plain = PlainCodec<T>;
         const std::uint64_t count = file_.chunk(name).memoryBytes() / sizeof(T);
         readGrid<typename Plain::Codec>(file_, name, values, {1, count}, Plain::decode);

@@ -3,6 +3,7 @@
 // checksummed blocks, so that chunks are written and read in parallel and in constant space.
 // Layout: docs/file-format.md.
 
+#include "vlf/base/byte_sink.h"
 #include "vlf/base/error.h"
 
 #include <cstddef>
@@ -47,14 +48,13 @@ struct Chunk {
     std::uint64_t memoryBytes() const;
 };
 
-/// Collects chunks into the bytes of one file. The same chunks give the same bytes, whatever the
-/// number of threads.
+/// Puts chunks into one file. The same chunks give the same bytes, whatever the number of threads.
 class ChunkFileWriter {
   public:
     /// 1: fast, to 22: small (Zstandard's). The level of field files is chosen on radiance: its
     /// residuals are noise to a matcher, and short matches cost more than literals. Level 3 is 4 %
     /// larger and 2.5 times as fast, level 9 is 1 % smaller and half as fast.
-    explicit ChunkFileWriter(int compressionLevel = 6);
+    explicit ChunkFileWriter(ByteSink& file, int compressionLevel = 6);
 
     /// Adds a chunk: encode(i) returns block i of `blockCount` and is called in parallel.
     /// Names have 1 to 16 characters of ASCII and are unique.
@@ -64,12 +64,12 @@ class ChunkFileWriter {
     /// Adds a chunk of plain bytes.
     void add(const std::string& name, std::span<const std::uint8_t> bytes);
 
-    /// The whole file; nothing may be added after it.
-    std::vector<std::uint8_t> take();
+    /// Completes the file; nothing may be added after it.
+    void finish();
 
   private:
+    ByteSink& file_;
     int compressionLevel_;
-    std::vector<std::uint8_t> file_;
     std::vector<Chunk> chunks_;
 };
 

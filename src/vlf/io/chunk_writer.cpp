@@ -63,8 +63,10 @@ std::vector<std::uint8_t> tableOf(const std::vector<Chunk>& chunks) {
 
 }  // namespace
 
-ChunkFileWriter::ChunkFileWriter(int compressionLevel)
-    : compressionLevel_(compressionLevel), file_(kHeaderBytes) {}
+ChunkFileWriter::ChunkFileWriter(ByteSink& file, int compressionLevel)
+    : file_(file), compressionLevel_(compressionLevel) {
+    file_.append(std::vector<std::uint8_t>(kHeaderBytes));
+}
 
 void ChunkFileWriter::add(const std::string& name, std::size_t blockCount,
                           const std::function<Block(std::size_t)>& encode, bool critical) {
@@ -82,7 +84,7 @@ void ChunkFileWriter::add(const std::string& name, std::size_t blockCount,
                                        static_cast<std::uint32_t>(block.memoryBytes),
                                        checksum(batch[i])};
         });
-        for (std::size_t i = 0; i < count; ++i) append(file_, batch[i]);
+        for (std::size_t i = 0; i < count; ++i) file_.append(batch[i]);
     }
 }
 
@@ -94,17 +96,17 @@ void ChunkFileWriter::add(const std::string& name, std::span<const std::uint8_t>
     });
 }
 
-std::vector<std::uint8_t> ChunkFileWriter::take() {
+void ChunkFileWriter::finish() {
     const std::vector<std::uint8_t> table = tableOf(chunks_);
     Header header;
     header.chunkCount = static_cast<std::uint32_t>(chunks_.size());
     header.tableOffset = file_.size();
     header.tableBytes = table.size();
     header.tableChecksum = checksum(table);
-    const std::vector<std::uint8_t> bytes = bytesOf(header), seal = bytesOf(checksum(bytes));
-    std::copy(seal.begin(), seal.end(), std::copy(bytes.begin(), bytes.end(), file_.begin()));
-    append(file_, table);
-    return std::move(file_);
+    std::vector<std::uint8_t> bytes = bytesOf(header);
+    append(bytes, bytesOf(checksum(bytes)));
+    file_.append(table);
+    file_.writeStart(bytes);
 }
 
 }  // namespace vlf

@@ -17,10 +17,10 @@ namespace vlf {
 namespace {
 
 constexpr std::array<std::string_view, 24> kChunks = {
-    "summary",       "meshes",          "materials",  "cameras",   "textures",  "pixels.srgb8",
-    "pixels.linear", "positions",       "normals",    "uvs",       "triangles", "bake",
-    "charts",        "triangle charts", "irradiance", "subfields", "tile rows", "radiance",
-    "gloss subfields", "gloss tile rows", "gloss", "lights", "environment", "sky pixels"};
+    "summary",         "meshes",          "materials",  "cameras",   "textures",    "pixels.srgb8",
+    "pixels.linear",   "positions",       "normals",    "uvs",       "triangles",   "bake",
+    "charts",          "triangle charts", "irradiance", "subfields", "tile rows",   "radiance",
+    "gloss subfields", "gloss tile rows", "gloss",      "lights",    "environment", "sky pixels"};
 
 /// The chunk "summary": the sizes of all arrays, and where the field lies.
 struct Summary {
@@ -39,16 +39,27 @@ std::uint64_t texturePixels(const Scene& scene) {
     return sum;
 }
 
+std::uint64_t filledElements(const RadianceField& radiance) {
+    constexpr std::size_t kPiece = 1 << 20;
+    std::ptrdiff_t filled = 0;
+    for (std::size_t first = 0; first < radiance.elements.size(); first += kPiece) {
+        const std::size_t count = std::min(kPiece, radiance.elements.size() - first);
+        const RadianceElement* const piece = radiance.elements.data() + first;
+        filled += std::count_if(piece, piece + count,
+                                [](const RadianceElement& e) { return e.distance > 0; });
+        radiance.release(first, count);
+    }
+    return static_cast<std::uint64_t>(filled);
+}
+
 RadianceCounts countsOf(const RadianceField& radiance) {
-    const auto filled = std::count_if(radiance.elements.begin(), radiance.elements.end(),
-                                      [](const RadianceElement& e) { return e.distance > 0; });
     return {.lines = radiance.lines,
             .cells = radiance.cells,
             .tileSize = radiance.tileSize,
             .maxDistance = radiance.maxDistance,
             .tileRows = radiance.rows.size(),
             .elements = radiance.elements.size(),
-            .filled = static_cast<std::uint64_t>(filled)};
+            .filled = filledElements(radiance)};
 }
 
 FieldCounts countsOf(const BakedRoom& room) {
@@ -91,8 +102,8 @@ Summary readSummary(const ChunkFileReader& file) {
     constexpr std::uint64_t kMaxCount = 0xffffffff;  // of what 32-bit indices can reach
     const bool countable = std::max({c.vertices, c.triangles, c.charts, c.radiance.tileRows,
                                      c.gloss.tileRows}) < kMaxCount;
-    if (!countable || c.radiance.lines < 0 || c.gloss.lines < 0 || !isFinite(summary.frame.centre) ||
-        !std::isfinite(summary.frame.radius))
+    if (!countable || c.radiance.lines < 0 || c.gloss.lines < 0 ||
+        !isFinite(summary.frame.centre) || !std::isfinite(summary.frame.radius))
         throw InputError({file.path(), 0, "chunk summary"}, "impossible numbers: bake it again");
     return summary;
 }
@@ -105,11 +116,13 @@ void writeField(const std::string& path, const BakedRoom& room) {
         checkRadianceLayout(*radiance, room.field.charts.size(), path);
         checkRadianceElements(*radiance, path);
     }
-    ChunkFileWriter file;
+    OutputFile output(path);
+    ChunkFileWriter file(output);
     addRecord(file, "summary", Summary{countsOf(room), room.field.frame});
     addScene(file, room.scene);
     addLightField(file, room.field);
-    writeFile(path, file.take());
+    file.finish();
+    output.commit();
 }
 
 BakedRoom readField(const std::string& path) {

@@ -48,9 +48,24 @@ inline std::vector<GridRows> rowsOfBlocks(std::span<const GridSize> sizes, std::
     return blocks;
 }
 
-template <class Codec, class T, class ToCode>
+/// What to do with items that have been written or read: nothing, or let go of those in a file.
+struct KeepItems {
+    void operator()(const void*, std::size_t) const {}
+};
+
+template <class T, class A>
+auto releaseItems(const std::vector<T, A>& items) {
+    if constexpr (requires(const A& a) { a.release(std::size_t{}, items.data(), std::size_t{}); })
+        return [&](const T* first, std::size_t count) {
+            items.get_allocator().release(items.capacity(), first, count);
+        };
+    else
+        return KeepItems{};
+}
+
+template <class Codec, class T, class ToCode, class Done = KeepItems>
 void addGrids(ChunkFileWriter& file, const std::string& name, std::span<const Grid<const T>> grids,
-              const ToCode& toCode) {
+              const ToCode& toCode, const Done& done = {}) {
     constexpr std::size_t kCodeBytes = sizeof(typename Codec::Element);
     std::vector<GridSize> sizes;
     for (const Grid<const T>& grid : grids) sizes.push_back({grid.width, grid.height});
@@ -60,6 +75,7 @@ void addGrids(ChunkFileWriter& file, const std::string& name, std::span<const Gr
         std::vector<typename Codec::Element> codes(blocks[i].count * grid.width);
         const T* items = grid.items + blocks[i].first * grid.width;
         std::transform(items, items + codes.size(), codes.begin(), toCode);
+        done(items, codes.size());
         return Block{Codec::encode(codes, grid.width), codes.size() * kCodeBytes};
     });
 }
@@ -78,9 +94,9 @@ const Chunk& gridChunk(const ChunkFileReader& file, std::string_view name,
 }
 
 /// Fills allocated grids. Precondition: chunk is gridChunk() of their sizes.
-template <class Codec, class T, class FromCode>
+template <class Codec, class T, class FromCode, class Done = KeepItems>
 void readGrids(const ChunkFileReader& file, const Chunk& chunk, std::span<const Grid<T>> grids,
-               const FromCode& fromCode) {
+               const FromCode& fromCode, const Done& done = {}) {
     std::vector<GridSize> sizes;
     for (const Grid<T>& grid : grids) sizes.push_back({grid.width, grid.height});
     const std::vector<GridRows> blocks = rowsOfBlocks(sizes, sizeof(typename Codec::Element));
@@ -90,25 +106,26 @@ void readGrids(const ChunkFileReader& file, const Chunk& chunk, std::span<const 
         if (bytes.size() != codes.size() * Codec::kElementBytes)
             throw InputError(file.where(chunk), "a block is not of its grid's size: bake it again");
         Codec::decode(bytes, codes, grid.width);
-        std::transform(codes.begin(), codes.end(), grid.items + blocks[i].first * grid.width,
-                       fromCode);
+        T* const items = grid.items + blocks[i].first * grid.width;
+        std::transform(codes.begin(), codes.end(), items, fromCode);
+        done(items, codes.size());
     });
 }
 
-template <class Codec, class T, class ToCode>
-void addGrid(ChunkFileWriter& file, const std::string& name, const std::vector<T>& items,
+template <class Codec, class T, class A, class ToCode>
+void addGrid(ChunkFileWriter& file, const std::string& name, const std::vector<T, A>& items,
              std::uint64_t width, const ToCode& toCode) {
     const Grid<const T> grid{items.data(), width, width == 0 ? 0 : items.size() / width};
-    addGrids<Codec, T>(file, name, std::span(&grid, 1), toCode);
+    addGrids<Codec, T>(file, name, std::span(&grid, 1), toCode, releaseItems(items));
 }
 
-template <class Codec, class T, class FromCode>
-void readGrid(const ChunkFileReader& file, std::string_view name, std::vector<T>& items,
+template <class Codec, class T, class A, class FromCode>
+void readGrid(const ChunkFileReader& file, std::string_view name, std::vector<T, A>& items,
               const GridSize& size, const FromCode& fromCode) {
     const Chunk& chunk = gridChunk<Codec>(file, name, std::span(&size, 1));
     items.resize(size.width * size.height);
     const Grid<T> grid{items.data(), size.width, size.height};
-    readGrids<Codec, T>(file, chunk, std::span(&grid, 1), fromCode);
+    readGrids<Codec, T>(file, chunk, std::span(&grid, 1), fromCode, releaseItems(items));
 }
 
 /// The codec of structs that consist of 32-bit members alone.

@@ -223,6 +223,8 @@ std::vector<RadianceElement> TileGroups::gather(std::uint64_t g) const {
         const RadianceElement* tile = field_.elements.data() + tileAt(t).firstElement;
         elements.insert(elements.end(), tile, tile + tileElements_);
     }
+    if (elements.empty()) return elements;
+    field_.release(tileAt(g * groupTiles_).firstElement, elements.size());
     return elements;
 }
 

@@ -40,6 +40,14 @@ bool fits(const Sweep& sweep, const BakeState& state) {
 
 }  // namespace
 
+BakeSolution solutionIn(const ScratchPlace& scratch) {
+    const RadianceElements none{ScratchAllocator<RadianceElement>(scratch)};
+    BakeSolution solution;
+    solution.radiance.field.elements = none;
+    solution.gloss.field.elements = none;
+    return solution;
+}
+
 void checkSolution(const BakeState& s) {
     const std::size_t texels = s.unwrap.texels.size();
     const std::size_t lit = s.stage == BakeStage::charts ? 0 : texels;

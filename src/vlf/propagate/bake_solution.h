@@ -146,6 +146,10 @@ void visitSolution(S& solution, Visit&& visit) {
     visit("gloss.done", gloss.done);
 }
 
+/// One that has nothing yet and whose radiance fields live in files of `scratch` where they are
+/// large.
+BakeSolution solutionIn(const ScratchPlace& scratch);
+
 struct BakeState;
 
 /// Throws InputError if the solution that the state is to go on from is not of its scene.

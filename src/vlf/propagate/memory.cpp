@@ -4,6 +4,7 @@
 #include "vlf/base/parallel.h"
 #include "vlf/unwrap/texel_size.h"
 
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <string>
@@ -13,10 +14,9 @@ namespace vlf {
 namespace {
 
 // Bytes, measured: of the program; per triangle its vertices, faces, adjacency and acceleration
-// structure; per atlas entry its points, accumulators and irradiances; per radiance element itself
-// and its share of the coded file; per ray of a bundle the layers that it meets.
-constexpr double kBase = 12e6, kPerTriangle = 255, kPerTexel = 420, kPerElement = 6.5,
-                 kPerRay = 140;
+// structure; per atlas entry its points, accumulators and irradiances; per ray of a bundle the
+// layers that it meets.
+constexpr double kBase = 12e6, kPerTriangle = 255, kPerTexel = 420, kPerRay = 140;
 constexpr double kPerTexelRefined = 160;    // accumulators that are kept as they are
 constexpr double kPerSkyPixel = 36;         // itself, and twice what chooses by its brightness
 constexpr double kAtlasOverhead = 1.6;      // gutters, gaps, texels cut by edges
@@ -24,9 +24,11 @@ constexpr double kRadianceOverhead = 1.25;  // whole tiles, guard band; measured
 
 /// What memory grows with.
 struct BakeSize {
-    double triangles, textureBytes, texels, radianceElements;
+    double triangles, textureBytes, texels;
+    MirrorElements elements;
     int cells;
     bool refined;
+    std::array<const ScratchPlace*, 2> scratch;  // of the two radiance fields
 };
 
 MemoryNeed needOf(const BakeSize& size) {
@@ -34,8 +36,14 @@ MemoryNeed needOf(const BakeSize& size) {
     const double transport = kBase + size.textureBytes + kPerTriangle * size.triangles +
                              (kPerTexel + (size.refined ? kPerTexelRefined : 0)) * size.texels +
                              kPerRay * rays;
-    return {static_cast<std::uint64_t>(transport),
-            static_cast<std::uint64_t>(kPerElement * size.radianceElements)};
+    MemoryNeed need{.transport = static_cast<std::uint64_t>(transport)};
+    const std::array<double, 2> elements{size.elements.perfect, size.elements.rough};
+    for (std::size_t i = 0; i < elements.size(); ++i) {
+        const auto bytes = static_cast<std::uint64_t>(sizeof(RadianceElement) * elements[i]);
+        const bool inFile = size.scratch[i] && bytes > size.scratch[i]->largest;
+        (inFile ? need.scratch : need.radiance) += bytes;
+    }
+    return need;
 }
 
 double textureBytes(const Scene& scene) {
@@ -92,29 +100,40 @@ MirrorElements predictElements(const Scene& scene, const BakeParams& params) {
             elements(scene, MirrorKind::rough, params.glossDirections, params.glossCells)};
 }
 
-MemoryNeed predictMemory(const Scene& scene, const BakeParams& params) {
+MemoryNeed predictMemory(const Scene& scene, const BakeParams& params,
+                         const ScratchPlace* scratch) {
     const double texels =
         params.texelSize > 0 ? texelsNeeded(scene, params.texelSize) : params.texelBudget;
-    const MirrorElements elements = predictElements(scene, params);
-    return needOf({static_cast<double>(scene.triangles.size()), textureBytes(scene),
-                   kAtlasOverhead * texels, elements.perfect + elements.rough, params.cells,
-                   refines(params)});
+    return needOf({static_cast<double>(scene.triangles.size()),
+                   textureBytes(scene),
+                   kAtlasOverhead * texels,
+                   predictElements(scene, params),
+                   params.cells,
+                   refines(params),
+                   {scratch, scratch}});
 }
 
 MemoryNeed predictMemory(const BakeState& state) {
     const LightField field = unlitField(state);
-    double elements = 0;
-    for (const RadianceParams& params : radianceParams(state.params))
-        elements += estimateElements(state.scene, field, params);
-    return needOf({static_cast<double>(state.scene.triangles.size()), textureBytes(state.scene),
-                   static_cast<double>(state.unwrap.atlasSize()), elements, state.params.cells,
-                   refines(state.params)});
+    const auto [perfect, rough] = radianceParams(state.params);
+    const auto scratchOf = [](const PartialRadiance& radiance) {
+        return radiance.field.elements.get_allocator().place().get();
+    };
+    return needOf({static_cast<double>(state.scene.triangles.size()),
+                   textureBytes(state.scene),
+                   static_cast<double>(state.unwrap.atlasSize()),
+                   {estimateElements(state.scene, field, perfect),
+                    estimateElements(state.scene, field, rough)},
+                   state.params.cells,
+                   refines(state.params),
+                   {scratchOf(state.radiance), scratchOf(state.gloss)}});
 }
 
-void requireMemory(const Scene& scene, const BakeParams& params, std::uint64_t bytes) {
+void requireMemory(const Scene& scene, const BakeParams& params, std::uint64_t bytes,
+                   const ScratchPlace* scratch) {
     const float texelSize =
         params.texelSize > 0 ? params.texelSize : texelSizeForBudget(scene, params.texelBudget);
-    require(predictMemory(scene, params), params, texelSize, bytes);
+    require(predictMemory(scene, params, scratch), params, texelSize, bytes);
 }
 
 void requireMemory(const BakeState& state, std::uint64_t bytes) {

@@ -99,13 +99,23 @@ std::uint64_t elementCount(const RadianceField& radiance) {
 void layOut(RadianceField& radiance, const Scene& scene, const LightField& field,
             const DirectionSet& directions, const std::vector<MirrorChart>& mirrors,
             const RadianceParams& params) {
-    std::vector<RadianceElement> elements = std::move(radiance.elements);
+    RadianceElements elements = std::move(radiance.elements);
     radiance = makeRows(scene, field, directions, mirrors, params);
     if (elements.empty())
         elements.resize(elementCount(radiance));
     else if (elements.size() != elementCount(radiance))
         throw InputError("what was baked of the radiance field before is not of this scene");
     radiance.elements = std::move(elements);
+}
+
+/// Lets go of the elements of a direction that is done, if they live in a file.
+void release(const RadianceField& radiance, std::uint32_t direction) {
+    const std::span<const TileRow> rows = radiance.rowsOf(direction);
+    if (rows.empty()) return;
+    const std::uint64_t first = rows.front().firstElement;
+    const std::uint64_t end =
+        rows.back().firstElement + radiance.tileElements() * rows.back().tilesWide;
+    radiance.release(first, end - first);
 }
 
 std::uint16_t packDistance(float distance, float longest) {
@@ -179,6 +189,7 @@ bool fillRadiance(const Scene& scene, const RayScene& rays, const LightField& fi
                                         packDistance(views[c].distance, radiance.maxDistance)};
             }
         }
+        release(radiance, d);
     });
 }
 

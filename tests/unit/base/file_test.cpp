@@ -44,6 +44,28 @@ TEST_F(FileTest, ReplacesAnOldFileAndLeavesNothingElse) {
     EXPECT_EQ(fileCount(), 1);
 }
 
+TEST_F(FileTest, WrittenPieceByPieceAppearsWhenItIsCommitted) {
+    writeFile(path("a"), oldBytes_);
+    OutputFile file(path("a"));
+    file.append(newBytes_);
+    file.append(oldBytes_);
+    EXPECT_EQ(file.size(), newBytes_.size() + oldBytes_.size());
+    file.writeStart(std::vector<std::uint8_t>{9, 8});
+    file.append(oldBytes_);
+    EXPECT_EQ(readFile(path("a")), oldBytes_);
+    file.commit();
+    EXPECT_EQ(readFile(path("a")),
+              (std::vector<std::uint8_t>{9, 8, 10, 13, 0, 1, 2, 3, 1, 2, 3}));
+    EXPECT_EQ(fileCount(), 1);
+}
+
+TEST_F(FileTest, WrittenPieceByPieceAndGivenUpLeavesTheOldOne) {
+    writeFile(path("a"), oldBytes_);
+    OutputFile(path("a")).append(newBytes_);
+    EXPECT_EQ(readFile(path("a")), oldBytes_);
+    EXPECT_EQ(fileCount(), 1);
+}
+
 TEST_F(FileTest, APendingFileAppearsWhenItIsCommitted) {
     writeFile(path("a"), oldBytes_);
     PendingFile file(path("a"));

@@ -73,8 +73,8 @@ Values someValues(std::size_t size) {
     return v;
 }
 
-template <class T>
-void expectSameBits(const std::vector<T>& a, const std::vector<T>& b) {
+template <class T, class A>
+void expectSameBits(const std::vector<T, A>& a, const std::vector<T, A>& b) {
     ASSERT_EQ(a.size(), b.size());
     EXPECT_EQ(std::memcmp(a.data(), b.data(), a.size() * sizeof(T)), 0);
 }
@@ -98,9 +98,9 @@ const CheckpointIdentity kIdentity{{"program version", "1.2"}, {"--cells", "64"}
 class CheckpointFile : public testing::Test {
   protected:
     void write(Values values) {
-        CheckpointWriter writer(kIdentity);
+        CheckpointWriter writer(path, kIdentity);
         values.visit(writer);
-        writer.write(path);
+        writer.commit();
     }
     Values read() const {
         CheckpointReader reader(path);
@@ -159,9 +159,11 @@ TEST_F(CheckpointFile, IsNoFieldFileAndAFieldFileIsNone) {
     } catch (const InputError& e) {
         EXPECT_NE(std::string(e.what()).find("--resume"), std::string::npos) << e.what();
     }
-    ChunkFileWriter other;
+    MemorySink file;
+    ChunkFileWriter other(file);
     other.add("summary", std::vector<std::uint8_t>(3));
-    putBytes(path, other.take());
+    other.finish();
+    putBytes(path, file.bytes());
     EXPECT_TRUE(isRefused());
 }
 
@@ -190,10 +192,10 @@ TEST_F(CheckpointFile, WithABitFlippedAnywhereIsRefused) {
 }
 
 TEST_F(CheckpointFile, ValuesOfAnotherSizeAreRefused) {
-    CheckpointWriter writer(kIdentity);
+    CheckpointWriter writer(path, kIdentity);
     writer("count", std::vector<int>{1, 2});
     writer("vectors", std::vector<float>{1, 2});
-    writer.write(path);
+    writer.commit();
     const CheckpointReader reader(path);
     int count = 0;
     EXPECT_THROW(reader("count", count), InputError);

@@ -54,9 +54,11 @@ std::string messageOf(const std::string& path) {
 class OneChunk : public testing::Test {
   protected:
     void SetUp() override {
-        ChunkFileWriter writer;
+        MemorySink file;
+        ChunkFileWriter writer(file);
         writer.add("bytes", ramp(5000));
-        bytes = writer.take();
+        writer.finish();
+        bytes = file.bytes();
         putBytes(path, bytes);
         blockEntry = peek<std::uint64_t>(bytes, 16) + 24;
     }
@@ -143,10 +145,12 @@ TEST_F(OneChunk, ALyingTableOffsetIsRefused) {
 TEST(ChunkFile, SplitsIntoBlocksOfAMegabyte) {
     const TempFolder folder;
     const std::vector<std::uint8_t> content = ramp(2 * kMaxBlockBytes + 77);
-    ChunkFileWriter writer;
+    MemorySink file;
+    ChunkFileWriter writer(file);
     writer.add("long", content);
     writer.add("empty", std::vector<std::uint8_t>{});
-    putBytes(folder.file("a.vlf"), writer.take());
+    writer.finish();
+    putBytes(folder.file("a.vlf"), file.bytes());
     const ChunkFileReader reader(folder.file("a.vlf"));
     EXPECT_EQ(reader.chunk("long").blocks.size(), 3u);
     EXPECT_EQ(reader.readBytes("long"), content);
@@ -158,9 +162,11 @@ TEST(ChunkFile, SplitsIntoBlocksOfAMegabyte) {
 
 TEST(ChunkFile, HighlyCompressibleBlocksArePaddedToTheAllowedRatio) {
     const TempFolder folder;
-    ChunkFileWriter writer;
+    MemorySink file;
+    ChunkFileWriter writer(file);
     writer.add("zeros", std::vector<std::uint8_t>(kMaxBlockBytes));
-    putBytes(folder.file("a.vlf"), writer.take());
+    writer.finish();
+    putBytes(folder.file("a.vlf"), file.bytes());
     const ChunkFileReader reader(folder.file("a.vlf"));
     EXPECT_EQ(reader.readBytes("zeros"), std::vector<std::uint8_t>(kMaxBlockBytes));
     EXPECT_GE(reader.chunk("zeros").storedBytes(), kMaxBlockBytes / kMaxRatio);
@@ -171,15 +177,12 @@ TEST(ChunkFile, UnknownCriticalChunksAreRefusedAndOthersIgnored) {
     const TempFolder folder;
     const std::array<std::string_view, 1> known = {"known"};
     for (const bool critical : {false, true}) {
-        ChunkFileWriter writer;
+        MemorySink file;
+        ChunkFileWriter writer(file);
         writer.add("known", ramp(10));
-        writer.add(
-            "extra", 1,
-            [](std::size_t) {
-                return Block{ramp(10), 10};
-            },
-            critical);
-        putBytes(folder.file("a.vlf"), writer.take());
+        writer.add("extra", 1, [](std::size_t) { return Block{ramp(10), 10}; }, critical);
+        writer.finish();
+        putBytes(folder.file("a.vlf"), file.bytes());
         const ChunkFileReader reader(folder.file("a.vlf"));
         if (critical) {
             EXPECT_THROW(reader.rejectUnknown(known), InputError);
@@ -191,10 +194,12 @@ TEST(ChunkFile, UnknownCriticalChunksAreRefusedAndOthersIgnored) {
 
 TEST(ChunkFile, TheSameNameTwiceIsRefused) {
     const TempFolder folder;
-    ChunkFileWriter writer;
+    MemorySink file;
+    ChunkFileWriter writer(file);
     writer.add("a", ramp(10));
     writer.add("a", ramp(10));
-    putBytes(folder.file("a.vlf"), writer.take());
+    writer.finish();
+    putBytes(folder.file("a.vlf"), file.bytes());
     EXPECT_NE(messageOf(folder.file("a.vlf")).find("twice"), std::string::npos);
 }
 

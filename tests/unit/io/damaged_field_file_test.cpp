@@ -70,16 +70,17 @@ TEST_F(DamagedFieldFile, WithSomethingAppendedIsRefused) {
 /// The file's chunks, with one of them altered and everything sealed with right checksums.
 void rewrite(const ChunkFileReader& source, const std::string& name, const std::string& path,
              const std::function<void(std::vector<std::uint8_t>&)>& alter) {
-    ChunkFileWriter writer;
+    MemorySink file;
+    ChunkFileWriter writer(file);
     for (const Chunk& chunk : source.chunks()) {
         std::vector<std::uint8_t> content = source.readBytes(chunk.name);
         if (chunk.name == name) alter(content);
         const std::size_t memory = chunk.memoryBytes();
-        writer.add(chunk.name, chunk.blocks.size(), [&](std::size_t) {
-            return Block{content, memory};
-        });
+        writer.add(chunk.name, chunk.blocks.size(),
+                   [&](std::size_t) { return Block{content, memory}; });
     }
-    putBytes(path, writer.take());
+    writer.finish();
+    putBytes(path, file.bytes());
 }
 
 /// Chunks of this small a file have one block at most, which rewrite() relies on.
@@ -117,10 +118,12 @@ TEST_F(DamagedFieldFile, WithoutOneOfItsChunksIsRefusedByName) {
     putBytes(folder.file("source.vlf"), bytes);
     const ChunkFileReader source(folder.file("source.vlf"));
     for (const Chunk& missing : source.chunks()) {
-        ChunkFileWriter writer;
+        MemorySink file;
+        ChunkFileWriter writer(file);
         for (const Chunk& chunk : source.chunks())
             if (chunk.name != missing.name) writer.add(chunk.name, source.readBytes(chunk.name));
-        putBytes(path, writer.take());
+        writer.finish();
+        putBytes(path, file.bytes());
         EXPECT_TRUE(isRefused()) << missing.name;
     }
 }
@@ -128,10 +131,12 @@ TEST_F(DamagedFieldFile, WithoutOneOfItsChunksIsRefusedByName) {
 TEST_F(DamagedFieldFile, WithAnUnknownChunkIsRefused) {
     putBytes(folder.file("source.vlf"), bytes);
     const ChunkFileReader source(folder.file("source.vlf"));
-    ChunkFileWriter writer;
+    MemorySink file;
+    ChunkFileWriter writer(file);
     for (const Chunk& chunk : source.chunks()) writer.add(chunk.name, source.readBytes(chunk.name));
     writer.add("glossy", std::vector<std::uint8_t>(10));
-    putBytes(path, writer.take());
+    writer.finish();
+    putBytes(path, file.bytes());
     try {
         readField(path);
         FAIL();

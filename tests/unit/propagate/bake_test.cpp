@@ -211,6 +211,26 @@ TEST(RequireMemory, CountsTheTilesOfSmallMirrors) {
     EXPECT_THROW(requireMemory(state, byArea + 1'000'000), InputError);
 }
 
+TEST(RequireMemory, LeavesLargeMirrorsToFiles) {
+    const Scene scene = generateScene("mirror-room", {1000});
+    BakeParams p = quick();
+    p.radianceDirections = 513;
+    p.radianceCells = 256;
+    const ScratchPlace scratch{testing::TempDir(), 1'000'000};
+    BakeState state(scene, p, solutionIn(scratch));
+    const MemoryNeed inMemory = predictMemory(scene, p),
+                     inFiles = predictMemory(scene, p, &scratch);
+    EXPECT_GT(inMemory.radiance, 5'000'000u);
+    EXPECT_EQ(inFiles.radiance, 0u);
+    EXPECT_EQ(inFiles.scratch, inMemory.radiance);
+    EXPECT_THROW(requireMemory(scene, p, inFiles.total() + 1000), InputError);
+    EXPECT_NO_THROW(requireMemory(scene, p, inFiles.total() + 1000, &scratch));
+    Progress progress;
+    state.unwrap = makeState(scene, p, progress).unwrap;
+    EXPECT_EQ(predictMemory(state).radiance, 0u);
+    EXPECT_GT(predictMemory(state).scratch, 5'000'000u);
+}
+
 TEST(MemoryNeed, OfLargeMirrorsIsExpectedFromTheirArea) {
     const Scene scene = generateScene("mirror-room", {1000});
     Progress progress;

@@ -310,6 +310,25 @@ TEST(RadianceField, DoesNotDependOnTheNumberOfThreads) {
               0);
 }
 
+TEST(RadianceField, InAFileIsTheSame) {
+    const Scene scene = test::mirrorBox();
+    BakeParams params = presetParams("draft");
+    params.texelBudget = 500;
+    params.maxBounces = 1;
+    params.cells = 64;
+    params.radianceDirections = 33;
+    params.radianceCells = 64;
+    Progress progress;
+    const LightField inMemory = bake(scene, params, progress);
+    const LightField inFile = bake(scene, params, progress, nullptr, unobserved,
+                                   solutionIn({testing::TempDir(), 100}));
+    const RadianceElements &a = inMemory.radiance.elements, &b = inFile.radiance.elements;
+    ASSERT_EQ(a.size(), b.size());
+    ASSERT_GT(a.size() * sizeof(RadianceElement), 100u);
+    EXPECT_EQ(b.get_allocator().place()->largest, 100u);
+    EXPECT_EQ(std::memcmp(a.data(), b.data(), a.size() * sizeof(RadianceElement)), 0);
+}
+
 TEST(RadianceField, OfARoomWithoutMirrorsIsEmpty) {
     EXPECT_TRUE(bakeRoom(roomWithMirrors({}).scene()).empty());
 }

@@ -71,8 +71,8 @@ class CancelledProgress : public Progress {
     int left_;
 };
 
-template <class T>
-void expectSameBits(const std::vector<T>& a, const std::vector<T>& b) {
+template <class T, class A>
+void expectSameBits(const std::vector<T, A>& a, const std::vector<T, A>& b) {
     ASSERT_EQ(a.size(), b.size());
     EXPECT_EQ(std::memcmp(a.data(), b.data(), a.size() * sizeof(T)), 0);
 }
@@ -104,8 +104,8 @@ struct Memory {
 struct Writer {
     Memory& memory;
 
-    template <class T>
-    void operator()(const std::string& name, const std::vector<T>& items) const {
+    template <class T, class A>
+    void operator()(const std::string& name, const std::vector<T, A>& items) const {
         memory.put(name, items.data(), items.size());
     }
     template <class T>
@@ -117,8 +117,8 @@ struct Writer {
 struct Reader {
     const Memory& memory;
 
-    template <class T>
-    void operator()(const std::string& name, std::vector<T>& items) const {
+    template <class T, class A>
+    void operator()(const std::string& name, std::vector<T, A>& items) const {
         const std::vector<std::uint8_t>& kept = memory.bytes.at(name);
         items.resize(kept.size() / sizeof(T));
         if (!items.empty()) std::memcpy(static_cast<void*>(items.data()), kept.data(), kept.size());
