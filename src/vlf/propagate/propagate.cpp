@@ -258,10 +258,19 @@ void bringToRest(BakeState& state, Progress& progress, const BakeObserver& obser
     observe(state);
 }
 
+/// Where nothing emits there is nothing to follow.
+void stayDark(BakeState& state) {
+    state.indirectVariance.assign(state.irradiance.size(), 0);
+    state.reached.assign(state.irradiance.size(), 1);
+    state.report.residual = 0;
+    state.stage = BakeStage::solved;
+}
+
 }  // namespace
 
 void propagate(BakeState& state, Progress& progress, const BakeObserver& observe) {
     const BakeParams& p = state.params;
+    if (state.sources.lights.empty() && !state.sources.sky) return stayDark(state);
     if (state.stage < BakeStage::settled) bringToRest(state, progress, observe);
     if (state.stage == BakeStage::solved) return;
     if (refines(p))

@@ -125,6 +125,19 @@ TEST(Bake, OfASceneWithoutLightIsBlack) {
     for (const Vec3& e : bakeQuick(b.scene(), quick()).atlas.irradiance) EXPECT_EQ(e, Vec3(0));
 }
 
+TEST(Bake, OfASceneWithoutLightDoesNotLookForIt) {
+    SceneBuilder b;
+    b.box(Vec3(0), Vec3(1), true, b.material("mirror", Vec3(0), Vec3(0), Vec3(1)));
+    Progress progress;
+    BakeReport report;
+    BakeParams params = quick();
+    params.error = 0.01;
+    bake(b.scene(), params, progress, &report);
+    EXPECT_EQ(report.exchanges, 0u);
+    EXPECT_EQ(report.residual, 0);
+    EXPECT_EQ(report.error.interpolated(), 0);
+}
+
 TEST(Bake, OfOneTriangleWorks) {
     SceneBuilder b;
     b.triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, b.material("lamp", Vec3(0.5f), Vec3(1)));
