@@ -42,19 +42,19 @@ class ShaderFolder : public ::testing::Test {
 
 TEST_F(ShaderFolder, EveryVariantOfTheBuiltInShadersCompiles) {
     ShaderLibrary library;
-    const std::string field = "\"radiance_field.glsl\"";
+    const char* const field = "\"radiance_field.glsl\"";
     for (const Defines& defines :
-         {Defines{}, Defines{{"DIFFUSE_MAP", "1"}}, Defines{{"EMISSION", "1"}},
-          Defines{{"MIRROR", field}}, Defines{{"MIRROR", field}, {"PLAIN", "1"}},
-          Defines{{"DIFFUSE_MAP", "1"}, {"EMISSION", "1"}, {"MIRROR", field}},
-          Defines{{"MIRROR", field}, {"OBJECTS", "1"}, {"PROBES", "1"}, {"SHADOWS", "1"}},
-          Defines{{"MIRROR", field}, {"CHANGED", "1"}},
-          Defines{{"MIRROR", field}, {"PLAIN", "1"}, {"OBJECTS", "1"}, {"PROBED", "128"}}})
+         {Defines{}, Defines{{"DIFFUSE_MAP", 1}}, Defines{{"EMISSION", 1}},
+          Defines{{"MIRROR", field}}, Defines{{"MIRROR", field}, {"PLAIN", 1}},
+          Defines{{"DIFFUSE_MAP", 1}, {"EMISSION", 1}, {"MIRROR", field}},
+          Defines{{"MIRROR", field}, {"OBJECTS", 1}, {"PROBES", 1}, {"SHADOWS", 1}},
+          Defines{{"MIRROR", field}, {"CHANGED", 1}},
+          Defines{{"MIRROR", field}, {"PLAIN", 1}, {"OBJECTS", 1}, {"PROBED", "128"}}})
         EXPECT_NE(library.program("surface", defines), 0u);
     for (const char* mirror : {"\"object_reflection.glsl\"", "\"object_probe.glsl\""})
         for (const Defines& defines :
-             {Defines{{"MIRROR", mirror}, {"OBJECTS", "1"}},
-              Defines{{"MIRROR", mirror}, {"OBJECTS", "1"}, {"SHADOWS", "1"}, {"BY_TEXEL", "1"}}})
+             {Defines{{"MIRROR", mirror}, {"OBJECTS", 1}},
+              Defines{{"MIRROR", mirror}, {"OBJECTS", 1}, {"SHADOWS", 1}, {"BY_TEXEL", 1}}})
             EXPECT_NE(library.program("object", defines), 0u);
 }
 

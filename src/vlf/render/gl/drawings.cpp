@@ -69,7 +69,7 @@ void Drawings::subfield(const View& view, const DiagramParams& params, const Cam
     const Sphere sphere{field_.frame.centre, field_.frame.radius};
     lines_.begin(view, {subfield::kPens, subfield::kColors, DepthCue(sphere, view.eye)});
     lines_.beginInk();
-    lines_.draw(*edges_, {{"EDGES", "1"}});
+    lines_.draw(*edges_, {{"EDGES", 1}});
     lines_.draw(drawn.lines, {});
     lines_.finish(framebuffer, picture);
 }

@@ -115,7 +115,8 @@ void GlassRoom::sortFrom(const Vec3& eye) {
 
 const TextureObject& GlassRoom::draw(GLuint program, const View& view) {
     sortFrom(view.eye);
-    target_.require(view.width, view.height, {{GL_COLOR_ATTACHMENT0, GL_RGBA16F}});
+    constexpr DrawingTarget::Attachment kColour{GL_COLOR_ATTACHMENT0, GL_RGBA16F};
+    target_.require(view.width, view.height, {&kColour, 1});
     target_.begin(view, Vec4(kPaper, 1));
     glEnable(GL_BLEND);
     glBlendEquation(GL_FUNC_ADD);

@@ -67,21 +67,24 @@ LineBuffer makeEdgeBuffer(const std::vector<MeshEdge>& edges) {
     return makeTexelBuffer(texels, kEdgeTexels);
 }
 
-void DrawingTarget::require(int w, int h, const std::vector<std::pair<GLenum, GLenum>>& formats) {
-    if (w <= width && h <= height && formats == formats_) return;
+void DrawingTarget::require(int w, int h, std::span<const Attachment> attachments) {
+    if (w <= width && h <= height &&
+        std::equal(attachments.begin(), attachments.end(), attachments_.begin(),
+                   attachments_.end()))
+        return;
     width = std::max(w, width);
     height = std::max(h, height);
-    formats_ = formats;
+    attachments_.assign(attachments.begin(), attachments.end());
     framebuffer = makeFramebuffer();
     textures.clear();
     std::vector<GLenum> drawn;
-    for (const auto& [attachment, format] : formats) {
+    for (const auto& [point, format] : attachments) {
         textures.push_back(makeTexture(GL_TEXTURE_2D));
         const GLuint id = textures.back().id();
         glTextureStorage2D(id, 1, format, width, height);
         glTextureParameteri(id, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-        glNamedFramebufferTexture(framebuffer.id(), attachment, id, 0);
-        if (attachment != GL_DEPTH_ATTACHMENT) drawn.push_back(attachment);
+        glNamedFramebufferTexture(framebuffer.id(), point, id, 0);
+        if (point != GL_DEPTH_ATTACHMENT) drawn.push_back(point);
     }
     glNamedFramebufferDrawBuffers(framebuffer.id(), static_cast<GLsizei>(drawn.size()),
                                   drawn.data());
@@ -104,7 +107,7 @@ void DrawingTarget::begin(const View& view, const Vec4& clear) const {
 
 std::uint64_t DrawingTarget::bytes() const {
     std::uint64_t perPixel = 0;
-    for (const auto& [attachment, format] : formats_) perPixel += format == GL_RGBA16F ? 8 : 4;
+    for (const auto& [point, format] : attachments_) perPixel += format == GL_RGBA16F ? 8 : 4;
     return perPixel * static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
 }
 
@@ -128,7 +131,8 @@ void LinePass::begin(const View& view, const LineStyle& style) {
 }
 
 void LinePass::beginDepth() {
-    depth_.require(view_.width, view_.height, {{GL_DEPTH_ATTACHMENT, GL_DEPTH_COMPONENT32F}});
+    constexpr DrawingTarget::Attachment kDepth{GL_DEPTH_ATTACHMENT, GL_DEPTH_COMPONENT32F};
+    depth_.require(view_.width, view_.height, {&kDepth, 1});
     depth_.begin(view_, Vec4(0));
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_LEQUAL);
@@ -140,9 +144,9 @@ void LinePass::beginDepth() {
 }
 
 void LinePass::beginInk() {
-    std::vector<std::pair<GLenum, GLenum>> formats{{GL_COLOR_ATTACHMENT0, GL_RGBA8}};
-    if (sheets_ > 4) formats.emplace_back(GL_COLOR_ATTACHMENT1, GL_RGBA8);
-    ink_.require(view_.width, view_.height, formats);
+    constexpr std::array<DrawingTarget::Attachment, 2> kInk{
+        {{GL_COLOR_ATTACHMENT0, GL_RGBA8}, {GL_COLOR_ATTACHMENT1, GL_RGBA8}}};
+    ink_.require(view_.width, view_.height, std::span(kInk).first(sheets_ > 4 ? 2 : 1));
     ink_.begin(view_, Vec4(0));
     glEnable(GL_BLEND);
     glBlendEquation(GL_MAX);
@@ -151,7 +155,7 @@ void LinePass::beginInk() {
 
 void LinePass::draw(const LineBuffer& lines, const Defines& kind, const Mat4& place) {
     glUseProgram(shaders_.program("line", kind));
-    if (kind.contains("OBJECT")) glUniformMatrix4fv(kPlaceLocation, 1, GL_FALSE, &place[0][0]);
+    if (kind.find("OBJECT")) glUniformMatrix4fv(kPlaceLocation, 1, GL_FALSE, &place[0][0]);
     for (const int unit : {kLineUnit, kRoomDepthUnit}) glBindSampler(static_cast<GLuint>(unit), 0);
     glBindTextureUnit(kLineUnit, lines.texture.id());
     if (!depth_.textures.empty()) glBindTextureUnit(kRoomDepthUnit, depth_.textures[0].id());
@@ -165,8 +169,8 @@ void LinePass::finish(GLuint framebuffer, const TextureObject* picture) {
         view_.part.value_or(PixelRectangle{view_.x, view_.y, view_.width, view_.height});
     glScissor(part.x, part.y, part.width, part.height);
     glDisable(GL_BLEND);
-    Defines kind{{"SHEETS", std::to_string(sheets_)}};
-    if (picture) kind.emplace("PICTURE", "1");
+    Defines kind{{"SHEETS", sheets_}};
+    if (picture) kind.add({"PICTURE", 1});
     glUseProgram(shaders_.program("sheets", kind));
     for (std::size_t i = 0; i < ink_.textures.size(); ++i)
         glBindTextureUnit(static_cast<GLuint>(kInkUnit + i), ink_.textures[i].id());

@@ -30,18 +30,23 @@ LineBuffer makeEdgeBuffer(const std::vector<MeshEdge>& edges);
 
 /// Textures of at least the size of a view, to draw into.
 struct DrawingTarget {
+    struct Attachment {
+        GLenum point, format;
+        bool operator==(const Attachment&) const = default;
+    };
+
     Framebuffer framebuffer;
     std::vector<TextureObject> textures;
     int width = 0, height = 0;
 
     /// Makes it anew with these attachments if it is too small or has others.
-    void require(int width, int height, const std::vector<std::pair<GLenum, GLenum>>& formats);
+    void require(int width, int height, std::span<const Attachment> attachments);
     /// Binds it with the view's size as viewport, cleared to a colour.
     void begin(const View& view, const Vec4& clear) const;
     std::uint64_t bytes() const;
 
   private:
-    std::vector<std::pair<GLenum, GLenum>> formats_;  ///< attachment, format
+    std::vector<Attachment> attachments_;
 };
 
 /// What a drawing draws with.

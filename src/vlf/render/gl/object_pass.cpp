@@ -129,17 +129,15 @@ void ObjectPass::bind() const {
 
 Defines ObjectPass::definesOf(const GpuObjectMesh& mesh, const RoomBatch& batch,
                               const RenderSettings& settings, bool shadowed) const {
-    Defines d{{"OBJECTS", "1"}};
-    if (mesh.texels) d.emplace("BY_TEXEL", "1");
-    if (mesh.mesh->scene.materials[batch.material].diffuseTexture >= 0)
-        d.emplace("DIFFUSE_MAP", "1");
-    if (maxComponent(Vec3(batch.data.emission)) > 0) d.emplace("EMISSION", "1");
-    if (batch.mirror && settings.mode == DisplayMode::raytraced && shadowed)
-        d.emplace("SHADOWS", "1");
+    Defines d{{"OBJECTS", 1}};
+    if (mesh.texels) d.add({"BY_TEXEL", 1});
+    if (mesh.mesh->scene.materials[batch.material].diffuseTexture >= 0) d.add({"DIFFUSE_MAP", 1});
+    if (maxComponent(Vec3(batch.data.emission)) > 0) d.add({"EMISSION", 1});
+    if (batch.mirror && settings.mode == DisplayMode::raytraced && shadowed) d.add({"SHADOWS", 1});
     if (batch.mirror && settings.mode == DisplayMode::raytraced)
-        d.emplace("MIRROR", "\"object_reflection.glsl\"");
+        d.add({"MIRROR", "\"object_reflection.glsl\""});
     else if (batch.mirror)
-        d.emplace("MIRROR", "\"object_probe.glsl\"");
+        d.add({"MIRROR", "\"object_probe.glsl\""});
     return d;
 }
 
@@ -193,10 +191,10 @@ void ObjectPass::drawLines(LinePass& lines, bool normals) const {
     for (std::size_t i = 0; i < count_; ++i) {
         GpuObjectMesh& mesh = meshes_.mesh(meshes_.meshOf(i));
         if (!mesh.edges) mesh.edges = makeEdgeBuffer(meshEdges(mesh.mesh->scene));
-        lines.draw(*mesh.edges, {{"EDGES", "1"}, {"HIDING", "1"}, {"OBJECT", "1"}}, places_[i]);
+        lines.draw(*mesh.edges, {{"EDGES", 1}, {"HIDING", 1}, {"OBJECT", 1}}, places_[i]);
         if (!normals) continue;
         if (!mesh.normals) mesh.normals = makeLineBuffer(normalLines(mesh.mesh->scene));
-        lines.draw(*mesh.normals, {{"HIDING", "1"}, {"NORMALS", "1"}, {"OBJECT", "1"}}, places_[i]);
+        lines.draw(*mesh.normals, {{"HIDING", 1}, {"NORMALS", 1}, {"OBJECT", 1}}, places_[i]);
     }
 }
 

@@ -17,7 +17,7 @@ void ObjectStage::update(const DynamicRoom& room) {
 void ObjectStage::drawShadows(const std::function<void()>& drawRoom) {
     if (!shadows_.stale()) return;
     const GLuint room = shaders_.program("shadow", {});
-    const GLuint object = shaders_.program("shadow", {{"OBJECT", "1"}});
+    const GLuint object = shaders_.program("shadow", {{"OBJECT", 1}});
     objects_.bind();
     shadows_.draw(room, object, drawRoom, [&](std::size_t i) { objects_.drawTriangles(i); });
 }
@@ -35,11 +35,11 @@ void ObjectStage::bind() const {
 }
 
 void ObjectStage::addDefines(Defines& defines, bool mirror, bool traced, bool probed) const {
-    if (!shadows_.empty()) defines.emplace("SHADOWS", "1");
-    if (probed) defines.emplace("PROBED", std::to_string(ReflectionProbes::kSize));
+    if (!shadows_.empty()) defines.add({"SHADOWS", 1});
+    if (probed) defines.add({"PROBED", ReflectionProbes::kSize});
     if (!mirror) return;
-    defines.emplace("OBJECTS", "1");
-    if (!traced && !probed && !objects_.probeCentres().empty()) defines.emplace("PROBES", "1");
+    defines.add({"OBJECTS", 1});
+    if (!traced && !probed && !objects_.probeCentres().empty()) defines.add({"PROBES", 1});
 }
 
 ObjectStage::Regions ObjectStage::regions(const View& view, const MirrorPlanes& mirrors,

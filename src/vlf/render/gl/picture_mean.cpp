@@ -10,7 +10,7 @@ using namespace shared;
 PictureMean::PictureMean(const std::string& shaderFolder)
     : shaders_(shaderFolder),
       viewBuffer_(makeBuffer(nullptr, sizeof(ViewData), GL_DYNAMIC_STORAGE_BIT)) {
-    add_ = shaders_.program("picture_mean", {{"ADD", "1"}});
+    add_ = shaders_.program("picture_mean", {{"ADD", 1}});
     show_ = shaders_.program("picture_mean", {});
 }
 

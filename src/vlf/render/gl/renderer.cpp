@@ -18,6 +18,7 @@
 #include "vlf/trace/ray_scene.h"
 
 #include <algorithm>
+#include <functional>
 #include <map>
 #include <optional>
 #include <utility>
@@ -96,7 +97,7 @@ struct Renderer::Impl {
         nearest = kNearest * field.frame.radius;
         rayStart = rayEpsilon(scene);
         memory.textures = textureBytes(scene);
-        if (!sky.isBlack()) shaders.setCommon({{"SKY", "1"}});
+        if (!sky.isBlack()) shaders.setCommon({{"SKY", 1}});
         loadRadiance(radiance, lightField.radiance, room.mirrorCharts, options);
         loadRadiance(gloss, lightField.gloss, room.roughCharts, options);
         makePrograms();
@@ -151,21 +152,20 @@ struct Renderer::Impl {
         // found.
         const bool reflects = batch.mirror && (traced || !batch.glass || batch.pane);
         Defines d;
-        if (scene.materials[batch.material].diffuseTexture >= 0) d.emplace("DIFFUSE_MAP", "1");
-        if (maxComponent(Vec3(batch.data.emission)) > 0) d.emplace("EMISSION", "1");
-        if (traced) d.emplace("MIRROR", "\"traced_reflection.glsl\"");
-        if (lookedUp) d.emplace("MIRROR", "\"radiance_field.glsl\"");
+        if (scene.materials[batch.material].diffuseTexture >= 0) d.add({"DIFFUSE_MAP", 1});
+        if (maxComponent(Vec3(batch.data.emission)) > 0) d.add({"EMISSION", 1});
+        if (traced) d.add({"MIRROR", "\"traced_reflection.glsl\""});
+        if (lookedUp) d.add({"MIRROR", "\"radiance_field.glsl\""});
         if (lookedUp && settings.lookup == LookupKind::plain)
-            d.emplace("PLAIN", "1");
+            d.add({"PLAIN", 1});
         else if (batch.rough)
-            d.emplace("ROUGH", "1");
-        if (lookedUp && (batch.rough ? gloss : radiance)->fourATexel())
-            d.emplace("FOUR_A_TEXEL", "1");
-        if (batch.glass) d.emplace("GLASS", "1");
-        if (batch.pane) d.emplace("PANE", "1");
-        if (batch.pane && !traced) d.emplace("BEHIND", "\"behind_pane.glsl\"");
+            d.add({"ROUGH", 1});
+        if (lookedUp && (batch.rough ? gloss : radiance)->fourATexel()) d.add({"FOUR_A_TEXEL", 1});
+        if (batch.glass) d.add({"GLASS", 1});
+        if (batch.pane) d.add({"PANE", 1});
+        if (batch.pane && !traced) d.add({"BEHIND", "\"behind_pane.glsl\""});
         if (withObjects) objects.addDefines(d, reflects, traced, probed);
-        if (withObjects && batch.rough && objects.changesLookedUp()) d.emplace("CHANGED", "1");
+        if (withObjects && batch.rough && objects.changesLookedUp()) d.add({"CHANGED", 1});
         return d;
     }
 
@@ -255,7 +255,7 @@ struct Renderer::Impl {
         glDepthFunc(GL_LESS);
         if (regions.change && regions.objects != part) {
             Defines changed = plain;
-            changed.emplace("CHANGED", "1");
+            changed.add({"CHANGED", 1});
             drawWithin(*regions.change, i, changed);
         }
         if (regions.objects != part && regions.change != part) drawWithin(part, i, plain);
@@ -285,7 +285,7 @@ struct Renderer::Impl {
                                glBindVertexArray(vertexArray.id());
                                for (std::size_t i = 0; i < batches.size(); ++i)
                                    drawBatch(i, definesOf(batches[i], settings, true, true));
-                               drawSky({{"PROBED", "1"}});
+                               drawSky({{"PROBED", 1}});
                            });
         viewData = shown;
         glNamedBufferSubData(viewBuffer.id(), 0, sizeof viewData, &viewData);
@@ -315,13 +315,15 @@ struct Renderer::Impl {
         const auto drawDepth = [&] {
             drawTriangles(true);
             if (objects.empty()) return;
-            glUseProgram(shaders.program("depth", {{"OBJECT", "1"}}));
+            glUseProgram(shaders.program("depth", {{"OBJECT", 1}}));
             objects.objects().drawTriangles();
         };
         const auto drawLines = [&](LinePass& lines) {
             if (!objects.empty()) objects.objects().drawLines(lines, settings.normals);
         };
-        drawings->wireframe(view, settings.normals, drawDepth, drawLines, framebuffer);
+        // By reference: a function that holds what these refer to would allocate.
+        drawings->wireframe(view, settings.normals, std::ref(drawDepth), std::ref(drawLines),
+                            framebuffer);
     }
 
     void drawDiagram(const View& view, const RenderSettings& settings, GLuint framebuffer) {

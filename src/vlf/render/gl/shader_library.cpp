@@ -49,7 +49,7 @@ std::string ShaderLibrary::expand(const std::string& file, const Defines& define
             continue;
         }
         std::string name = line.substr(9);
-        if (const auto define = defines.find(name); define != defines.end()) name = define->second;
+        if (const Define* define = defines.find(name)) name = define->value();
         if (name.size() > 2 && name.front() == '"') name = name.substr(1, name.size() - 2);
         // What C++ alone includes, and names that this variant does not define, lie in branches
         // that the preprocessor leaves out.
@@ -63,7 +63,8 @@ std::string ShaderLibrary::expand(const std::string& file, const Defines& define
 Shader ShaderLibrary::shader(GLenum stage, const std::string& file, const Defines& defines) const {
     std::string text = "#version 450 core\n";
     for (const Defines* all : {&common_, &defines})
-        for (const auto& [name, value] : *all) text += "#define " + name + " " + value + "\n";
+        for (const Define& d : *all)
+            text += "#define " + std::string(d.name) + " " + d.value() + "\n";
     std::vector<std::string> files;
     text += expand(file, defines, files);
     Shader shader(glCreateShader(stage));

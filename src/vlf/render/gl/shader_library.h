@@ -1,6 +1,7 @@
 #pragma once
 // Programs from shader files: built in, or from a folder that overrides them.
 
+#include "vlf/render/gl/defines.h"
 #include "vlf/render/gl/gl_object.h"
 
 #include <map>
@@ -10,16 +11,13 @@
 
 namespace vlf::gl {
 
-/// Names and values of the #defines that make a variant of a shader.
-using Defines = std::map<std::string, std::string>;
-
 class ShaderLibrary {
   public:
     /// Files in `folder` are used in place of the built-in ones of the same name; empty: none.
     explicit ShaderLibrary(std::string folder = {}) : folder_(std::move(folder)) {}
 
     /// In all programs that are made from now on, besides their own.
-    void setCommon(Defines defines) { common_ = std::move(defines); }
+    void setCommon(const Defines& defines) { common_ = defines; }
 
     /// The program of NAME.vert and NAME.frag, made when first asked for. Throws InputError with
     /// the driver's message, in which lines are named by file.

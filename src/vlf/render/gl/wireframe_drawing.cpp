@@ -13,8 +13,8 @@ void WireframeDrawing::draw(LinePass& pass, const View& view, bool normals,
     pass.beginDepth();
     drawTriangles();
     pass.beginInk();
-    pass.draw(edges_, {{"EDGES", "1"}, {"HIDING", "1"}});
-    if (normals) pass.draw(*normals_, {{"HIDING", "1"}, {"NORMALS", "1"}});
+    pass.draw(edges_, {{"EDGES", 1}, {"HIDING", 1}});
+    if (normals) pass.draw(*normals_, {{"HIDING", 1}, {"NORMALS", 1}});
     drawLines(pass);
     pass.finish(framebuffer);
 }
