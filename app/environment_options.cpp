@@ -33,7 +33,7 @@ std::string sourceProblem(const std::string& text) {
 
 }  // namespace
 
-void addEnvironmentOptions(CLI::App& command, EnvironmentOptions& options) {
+CLI::Option* addEnvironmentOptions(CLI::App& command, EnvironmentOptions& options) {
     CLI::Option* source =
         command
             .add_option("--environment", options.source,
@@ -51,17 +51,19 @@ void addEnvironmentOptions(CLI::App& command, EnvironmentOptions& options) {
         ->capture_default_str()
         ->needs(source)
         ->check(numberWithin(-360, 360));
+    return source;
 }
 
-void surround(Scene& scene, const EnvironmentOptions& options) {
-    if (options.source.empty()) return;
-    Environment& environment = scene.environment;
+Environment environmentOf(const EnvironmentOptions& options) {
+    Environment environment;
+    if (options.source.empty()) return environment;
     if (const std::optional<Vec3> radiance = parseRadiance(options.source))
         environment.radiance = *radiance;
     else
         environment = readEnvironment(options.source);
     environment.radiance *= options.scale;
     environment.turn = options.turn;
+    return environment;
 }
 
 }  // namespace vlf::app

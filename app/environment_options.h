@@ -16,9 +16,10 @@ struct EnvironmentOptions {
 };
 
 /// --environment, --environment-scale and --environment-turn; `options` must outlive the parsing.
-void addEnvironmentOptions(CLI::App& command, EnvironmentOptions& options);
+/// Returns the first.
+CLI::Option* addEnvironmentOptions(CLI::App& command, EnvironmentOptions& options);
 
-/// Puts it about the scene. Throws as readEnvironment.
-void surround(Scene& scene, const EnvironmentOptions& options);
+/// Black if there is none. Throws as readEnvironment.
+Environment environmentOf(const EnvironmentOptions& options);
 
 }  // namespace vlf::app

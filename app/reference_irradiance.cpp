@@ -27,7 +27,7 @@ namespace {
 void requireSameScene(const IrradianceOptions& options, const BakedRoom& room) {
     ImportReport report;
     Scene scene = importScene(options.scenes, report);
-    surround(scene, options.environment);
+    scene.environment = environmentOf(options.environment);
     if (sceneHash(scene) != room.field.record.sceneHash)
         throw InputError(options.field + ": was baked from another scene than " +
                          options.scenes.front() +

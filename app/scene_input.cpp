@@ -21,7 +21,7 @@ Scene readScenes(const std::vector<std::string>& paths, const EnvironmentOptions
     try {
         Scene scene = importScene(paths, report);
         print(report, globals);
-        surround(scene, environment);
+        scene.environment = environmentOf(environment);
         return scene;
     } catch (const Error&) {
         print(report, globals);  // they may explain it

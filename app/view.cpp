@@ -4,6 +4,7 @@
 #include "camera_options.h"
 #include "commands.h"
 #include "console.h"
+#include "environment_options.h"
 #include "gpu_options.h"
 #include "number_within.h"
 #include "object_options.h"
@@ -36,6 +37,7 @@ namespace {
 
 struct Options {
     std::vector<std::string> files;
+    EnvironmentOptions environment;
     QualityOptions quality;
     CameraOptions camera;
     ObjectOptions objects;
@@ -129,6 +131,7 @@ void viewScene(const Options& options, const Globals& globals) {
     requireWritableOutputs({options.viewer.output});
     LiveOptions live;
     live.programVersion = VLF_VERSION;
+    live.environment = environmentOf(options.environment);
     LiveBake bake(options.files, bakeParams(options.quality, globals), live);
     const LiveUpdate first = firstRoom(bake, globals);
     for (const std::string& warning : bake.status().warnings) printWarning(globals.quiet, warning);
@@ -151,8 +154,8 @@ void run(const Options& options, const Globals& globals, bool asksForBake) {
         throw CLI::ValidationError("FILE", "takes one field file, or any number of scene files");
     if (asksForBake)
         throw CLI::ValidationError("FILE", options.files.front() +
-                                               " is baked already: -o and the options of quality "
-                                               "are for scene files");
+                                               " is baked already: -o, --environment and the "
+                                               "options of quality are for scene files");
     viewField(options, globals);
 }
 
@@ -220,6 +223,7 @@ void addView(CLI::App& app, const Globals& globals) {
             ->add_option("-o,--output", options->viewer.output,
                          "Of scene files: write the finished bake (.vlf); F5 saves it as it is")
             ->type_name("FIELD");
+    const CLI::Option* environment = addEnvironmentOptions(*command, options->environment);
     const CLI::Option_group* quality = addQualityOptions(*command, options->quality);
     command->footer(objectHelp() + "\nKeys:\n" + keyHelp() +
                     "\nPlace, speed, bookmarks and the window are remembered; see --fresh. Of "
@@ -228,15 +232,17 @@ void addView(CLI::App& app, const Globals& globals) {
                     "  vlf view room.vlf\n"
                     "  vlf view room.vlf --camera front --size 1280x960\n"
                     "  vlf view room.obj -o room.vlf\n"
+                    "  vlf view house.obj --environment sky.hdr\n"
                     "  vlf view room.vlf --object cube:0.3:red --object sphere:mirror\n"
                     "  vlf view room.vlf --record walk.json\n"
                     "  vlf view room.vlf --replay walk.json --fps 30 --log frames.csv");
-    command->callback([options, command, output, quality, &globals] {
+    command->callback([options, command, output, environment, quality, &globals] {
         for (const char* chosen : {"--camera", "--eye", "--up", "--fov"})
             options->viewer.startChosen |= command->count(chosen) > 0;
         options->viewer.samplesChosen = command->count("--samples") > 0;
         options->viewer.placeChosen = command->count("--size") > 0;
-        run(*options, globals, output->count() > 0 || quality->count_all() > 0);
+        run(*options, globals,
+            output->count() > 0 || environment->count() > 0 || quality->count_all() > 0);
     });
 }
 

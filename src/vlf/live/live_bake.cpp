@@ -175,6 +175,7 @@ class Watcher {
             Scene scene;
             runInBackground(0, options_.threads, [&] { scene = importScene(sceneFiles_, report); });
             if (stop.stop_requested()) return {};
+            scene.environment = options_.environment;
             start(std::move(scene), std::move(report.warnings));
         } catch (const std::exception& e) {
             board_.note([&](LiveStatus& s) {

@@ -21,6 +21,7 @@ struct LiveOptions {
     std::chrono::milliseconds interval{50};
     /// How often the files are looked at; a change shows at the second look.
     std::chrono::milliseconds watchInterval{250};
+    Environment environment;     ///< of the scene, whose files have none
     std::string programVersion;  ///< for the record of finished fields
 };
 

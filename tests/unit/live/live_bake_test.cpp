@@ -271,6 +271,16 @@ TEST_F(LiveBakeTest, SaysThatASceneHasNoLight) {
         warnings, [](const auto& w) { return w.find("no emitter") != std::string::npos; }));
 }
 
+TEST_F(LiveBakeTest, TakesTheEnvironmentForLight) {
+    LiveOptions options = quickOptions();
+    options.environment.radiance = Vec3(0.5f);
+    LiveBake bake({write("floor.obj", kFloor)}, quickParams(), options);
+    const IrradianceAtlas light = *updatesOf(bake).back().irradiance;
+    EXPECT_NEAR(light.irradiance[light.irradiance.size() / 2].x, 0.5f * kPi, 0.01f);
+    for (const std::string& warning : bake.status().warnings)
+        EXPECT_EQ(warning.find("no emitter"), std::string::npos) << warning;
+}
+
 TEST_F(LiveBakeTest, SaysWhyParametersDoNotSuitTheScene) {
     BakeParams wanted = quickParams();
     wanted.texelSize = 1e-6f;
