@@ -59,9 +59,10 @@ void run(const Options& o) {
         std::vector<float> now;
         for (const std::uint32_t t : texels.unwrap.texels)
             now.push_back(luminance(room.irradiance().irradiance[t]));
-        const Sphere sphere{pose.point(Vec3(0)), 0.5f * std::sqrt(3.0f) * o.size};
+        const ShadowCaster caster = casterOf(*cube.model, pose);
+        const Sphere& sphere = caster.sphere;
         std::vector<std::uint8_t> shadowed(now.size(), 0);
-        for (const std::uint32_t i : texelsInShadow(baked.scene, texels, {&sphere, 1}))
+        for (const std::uint32_t i : texelsInShadow(baked.scene, rays, texels, {&caster, 1}))
             shadowed[i] = 1;
         for (std::size_t i = 0; i < now.size(); ++i) {
             const LightReceiver r = texelReceiver(baked.scene, texels.unwrap, i);

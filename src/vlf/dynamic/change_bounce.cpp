@@ -1,158 +1,158 @@
 #include "vlf/dynamic/change_bounce.h"
 
-#include "vlf/base/parallel.h"
-#include "vlf/math/frame.h"
-#include "vlf/math/random.h"
-#include "vlf/math/sampling.h"
-
 #include <algorithm>
-#include <cmath>
+#include <bit>
 
 namespace vlf {
 
 namespace {
 
-constexpr std::size_t kRaysPerBlock = 256;
-constexpr double kPortion = 2.5e-8;  // of the room's flux, that a ray carries
-constexpr double kFewestRays = 1024, kMostRays = 32768;
-/// From this far on, in radii of a group, what arrives at one of its texels counts for them all:
-/// few rays would make single far texels flicker.
+constexpr float kPortion = 2.5e-8f;  // of the room's flux, that a ray carries
+constexpr float kFewestRays = 16;    // of a group
+/// From this far on, in radii of a group, what arrives at one of its texels counts for them all,
+/// and where rays lie farther apart than this many texels, for a block of them: few rays would make
+/// single texels flicker.
 constexpr float kFar = 5;
-constexpr float kSpread = 0.12f;
+constexpr int kSquare = 2;
+constexpr float kSpread = 0.6f;
 
 float size(const Vec3& flux) {
     return maxComponent(glm::abs(flux));  // a ray of any colour carries no more than another
 }
 
-Vec3 fluxOf(const RoomChange& change, std::uint32_t texel, const RoomTexels& room,
-            const Coverage& coverage) {
-    return room.reflectance[texel] * change.of(texel) *
-           (room.area[texel] * coverage.uncovered(texel));
-}
+/// How the flux of a group is shared by its first rays: the more, the more of them, and as evenly
+/// as it changes.
+class Shares {
+  public:
+    Shares(float wanted, float fewest, int most) {
+        wanted = std::clamp(wanted, fewest, static_cast<float>(most));
+        all_ = std::bit_ceil(static_cast<std::uint32_t>(std::ceil(wanted)));
+        const auto all = static_cast<float>(all_);
+        const float mix = 2 * wanted / all - 1;
+        second_ = mix / all;
+        first_ = second_ + (1 - mix) * 2 / all;
+    }
+
+    std::uint32_t count() const { return all_; }
+    float of(std::uint32_t ray) const { return 2 * ray < all_ ? first_ : second_; }
+
+  private:
+    std::uint32_t all_;
+    float first_, second_;
+};
 
 }  // namespace
 
-/// Systematic sampling: along the texels one after the other a ray for every portion of flux.
-void ChangeBounce::aim(const RoomChange& change, const Scene& scene, float epsilon,
-                       const RoomTexels& room, const Coverage& coverage, float roomFlux) {
-    rays_.clear(), carried_.clear(), flux_.clear();
-    double all = 0;
-    for (const std::uint32_t t : change.texels()) {
-        flux_.push_back(fluxOf(change, t, room, coverage));
-        all += size(flux_.back());
+void ChangeBounce::send(const RoomChange& change, std::uint32_t g, const BounceRays& rays,
+                        const RoomTexels& room, const Coverage& coverage, float portion) {
+    const TexelGroup& group = room.groups[g];
+    const auto launches = rays.of(g);
+    Vec3 flux(0);
+    if (!change.variesIn(g)) {
+        for (std::uint32_t block = 4 * g; block < 4 * g + 4; ++block)
+            flux += room.blockReflects[block] * change.ofBlock(block);
+        if (flux == Vec3(0)) return;
+        const Shares shares(size(flux) / portion, kFewestRays, rays.perGroup());
+        for (std::uint32_t i = 0; i < shares.count(); ++i)
+            for (const BounceRays::Arrival& arrival : rays.arrivals(launches[i]))
+                arrive(arrival, shares.of(i) * flux, room);
+        return;
     }
-    if (all <= 0) return;
-    const double portion =
-        std::clamp<double>(kPortion * roomFlux, all / kMostRays, all / kFewestRays);
-    double passed = 0.5 * portion;
-    for (std::size_t i = 0; i < flux_.size(); ++i) {
-        const Vec3& flux = flux_[i];
-        if (flux == Vec3(0)) continue;
-        passed += size(flux);
-        const auto count = static_cast<int>(passed / portion);
-        if (count == 0) continue;
-        passed -= count * portion;
-        const std::uint32_t t = change.texels()[i];
-        const std::uint32_t entry = room.entryOf[t];
-        const std::span<const SurfacePoint> points = coverage.points(room, entry);
-        if (points.empty()) continue;
-        const Vec3 carried = flux * static_cast<float>(portion / size(flux));
-        const Vec2 shift = RandomStream(0, t).next2();
-        for (int k = 0; k < count; ++k) {
-            const SurfacePoint& p = points[static_cast<std::size_t>(k) % points.size()];
-            const RoomTriangle& triangle = room.triangles[p.triangle];
-            const bool front = triangle.charts.front == room.unwrap.texelChart[entry];
-            const Vec3 normal = glm::normalize(front ? triangle.areaVector : -triangle.areaVector);
-            rays_.push_back({positionAt(scene, p.triangle, p.barycentric) + epsilon * normal,
-                             frameFromNormal(normal).toWorld(sampleCosineHemisphere(
-                                 r2Point(static_cast<std::uint32_t>(k), shift)))});
-            carried_.push_back(carried);
-        }
+    float all = 0;
+    for (std::uint32_t i = group.first; i < group.first + group.count; ++i) {
+        const std::uint32_t t = room.unwrap.texels[room.grouped[i]];
+        const Vec3 sent =
+            room.reflectance[t] * change.of(t) * (room.area[t] * coverage.uncovered(t));
+        sent_[room.placeOf[t]] = static_cast<float>(group.count) * sent;
+        all += size(sent);
     }
+    if (all == 0) return;
+    const Shares shares(all / portion, std::min<float>(64, rays.perGroup()), rays.perGroup());
+    for (std::uint32_t i = 0; i < shares.count(); ++i)
+        for (const BounceRays::Arrival& arrival : rays.arrivals(launches[i]))
+            arrive(arrival, shares.of(i) * sent_[room.placeOf[launches[i].texel]], room);
 }
 
-void ChangeBounce::shoot(const Scene& scene, const RayScene& roomRays, const RoomTexels& room,
-                         const SightObjects& objects) {
-    const std::size_t blocks = (rays_.size() + kRaysPerBlock - 1) / kRaysPerBlock;
-    if (arrivals_.size() < blocks) arrivals_.resize(blocks);
-    for (std::vector<Arrival>& block : arrivals_) block.clear();
-    parallelFor(blocks, 1, [&](std::size_t block) {
-        const std::size_t first = block * kRaysPerBlock;
-        const std::size_t count = std::min(kRaysPerBlock, rays_.size() - first);
-        SightTracer tracer(scene, roomRays, room);
-        tracer.setObjects(objects);
-        thread_local Sights sights;
-        tracer.trace({rays_.data() + first, count}, sights);
-        for (std::size_t i = 0; i < count; ++i)
-            if (sights.texel[i] != kNoTexel)
-                arrivals_[block].push_back(
-                    {sights.texel[i], sights.distance[i], carried_[first + i]});
-        for (const Sight& sight : sights.others)
-            if (sight.texel != kNoTexel && sight.covered)
-                arrivals_[block].push_back(
-                    {sight.texel, sight.distance, sight.throughput * carried_[first + sight.ray]});
-    });
+void ChangeBounce::arrive(const BounceRays::Arrival& arrival, const Vec3& sent,
+                          const RoomTexels& room) {
+    if (room.hidden[arrival.texel]) return;
+    const Vec3 flux = arrival.throughput * sent;
+    const std::uint32_t block = room.blockOf[arrival.texel];
+    const TexelGroup& group = room.groups[block / 4];
+    if (arrival.distance > kFar * group.bounds.radius) {
+        groups_[block / 4] += flux;
+        return;
+    }
+    const Unwrap& unwrap = room.unwrap;
+    const Chart& chart = unwrap.charts[unwrap.texelChart[room.entryOf[arrival.texel]]];
+    const int reach = static_cast<int>(kSpread * arrival.distance / chart.texelSize() + 0.5f);
+    if (reach > kSquare)
+        blocks_[block] += flux;
+    else
+        spread(arrival, reach, flux, room);
 }
 
 /// Over a square of texels around the one it has come to that is as wide as rays lie apart there.
-void ChangeBounce::spread(const Arrival& arrival, const RoomTexels& room,
-                          const Coverage& coverage) {
+void ChangeBounce::spread(const BounceRays::Arrival& arrival, int reach, const Vec3& flux,
+                          const RoomTexels& room) {
     const Unwrap& unwrap = room.unwrap;
     const Chart& chart = unwrap.charts[unwrap.texelChart[room.entryOf[arrival.texel]]];
-    const int reach = static_cast<int>(kSpread * arrival.distance / chart.texelSize());
     const auto x = static_cast<int>(arrival.texel % unwrap.atlasWidth - chart.x);
     const auto y = static_cast<int>(arrival.texel / unwrap.atlasWidth - chart.y);
-    square_.clear();
+    const std::size_t first = near_.size();
     float area = 0;
     for (int v = std::max(0, y - reach); v <= std::min<int>(chart.height - 1, y + reach); ++v)
         for (int u = std::max(0, x - reach); u <= std::min<int>(chart.width - 1, x + reach); ++u) {
             const std::uint32_t t = (chart.y + v) * unwrap.atlasWidth + chart.x + u;
-            const float seen = room.area[t] * coverage.uncovered(t);
-            if (seen <= 0) continue;
-            area += seen;
-            square_.push_back(t);
+            if (room.area[t] <= 0 || room.hidden[t]) continue;
+            area += room.area[t];
+            near_.push_back({t, flux});
         }
-    for (const std::uint32_t t : square_) near_.push_back({t, arrival.flux / area});
+    for (std::size_t i = first; i < near_.size(); ++i) near_[i].irradiance /= area;
+    again_ += room.reflectance[arrival.texel] * flux;
 }
 
-void ChangeBounce::collect(const RoomTexels& room, const Coverage& coverage) {
-    Vec3 again(0);
-    for (const std::vector<Arrival>& block : arrivals_)
-        for (const Arrival& a : block) {
-            again += room.reflectance[a.texel] * a.flux;
-            const std::uint32_t g = room.groupOf[a.texel];
-            const TexelGroup& group = room.groups[g];
-            if (a.distance > kFar * group.bounds.radius) {
-                if (!std::exchange(groupListed_[g], 1)) changedGroups_.push_back(g);
-                groups_[g] += a.flux / group.area;
-                continue;
-            }
-            spread(a, room, coverage);
+void ChangeBounce::collect(const RoomTexels& room) {
+    for (std::uint32_t g = 0; g < room.groups.size(); ++g) {
+        Vec3 reflects(0);
+        for (std::uint32_t b = 4 * g; b < 4 * g + 4; ++b) {
+            reflects += room.blockReflects[b];
+            if (blocks_[b] == Vec3(0)) continue;
+            blocks_[b] /= room.blockArea[b];
+            again_ += room.blockReflects[b] * blocks_[b];
         }
-    ambient_ = room.totalArea > 0 ? again * room.gain() / room.totalArea : Vec3(0);
+        if (room.groups[g].area > 0) groups_[g] /= room.groups[g].area;
+        again_ += reflects * groups_[g];
+    }
+    ambient_ = room.totalArea > 0 ? again_ * room.gain() / room.totalArea : Vec3(0);
 }
 
 void ChangeBounce::clear() {
-    for (const std::uint32_t g : changedGroups_) groups_[g] = Vec3(0), groupListed_[g] = 0;
-    changedGroups_.clear();
     near_.clear();
-    ambient_ = Vec3(0);
+    std::fill(groups_.begin(), groups_.end(), Vec3(0));
+    std::fill(blocks_.begin(), blocks_.end(), Vec3(0));
+    again_ = ambient_ = Vec3(0);
+    found_ = false;
 }
 
-void ChangeBounce::find(const RoomChange& change, const Scene& scene, const RayScene& roomRays,
-                        const RoomTexels& room, const Coverage& coverage,
-                        const SightObjects& objects, float roomFlux) {
-    groups_.resize(room.groups.size(), Vec3(0));
-    groupListed_.resize(room.groups.size(), 0);
+void ChangeBounce::find(const RoomChange& change, const BounceRays& rays, const RoomTexels& room,
+                        const Coverage& coverage, float roomFlux) {
+    groups_.resize(room.groups.size());
+    blocks_.resize(room.blockArea.size());
+    sent_.resize(RoomTexels::kGroupSide * RoomTexels::kGroupSide);
     clear();
-    aim(change, scene, roomRays.epsilon(), room, coverage, roomFlux);
-    shoot(scene, roomRays, room, objects);
-    collect(room, coverage);
+    const float portion = std::max(kPortion * roomFlux, 1e-30f);
+    for (std::uint32_t g = 0; g < room.groups.size(); ++g)
+        send(change, g, rays, room, coverage, portion);
+    collect(room);
+    found_ = true;
 }
 
 void ChangeBounce::addTo(RoomChange& change, float leastAmbient) const {
+    if (!found_) return;
     for (const TexelChange& t : near_) change.add(t.texel, t.irradiance);
-    for (const std::uint32_t g : changedGroups_) change.addToGroup(g, groups_[g]);
+    for (std::uint32_t b = 0; b < blocks_.size(); ++b) change.addToBlock(b, blocks_[b]);
+    for (std::uint32_t g = 0; g < groups_.size(); ++g) change.addToGroup(g, groups_[g]);
     if (size(ambient_) > leastAmbient) change.addToAll(ambient_);
 }
 

@@ -142,7 +142,7 @@ class DeltaLines::Block {
         const auto add = [&](std::size_t i, std::uint32_t texel, float distance, bool inMirror,
                              const Vec3& throughput) {
             const bool covered = !inMirror && distance < s_.length[i] + epsilon_;
-            if (covered || seen.hidden[i] < distance) return;
+            if (covered || seen.hidden[i] < distance || room_.texels.hidden[texel]) return;
             const Unit unit = unitAt(texel, distance, s_.weight[i]);
             const float area = areaOf(unit, texel);
             if (area > 0)

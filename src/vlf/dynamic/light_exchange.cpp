@@ -63,7 +63,8 @@ LightExchange::LightExchange(const Scene& scene, const RayScene& rays, const Lig
       texels_(makeRoomTexels(scene, rays, field)),
       incident_(scene, rays, texels_),
       coverage_(texels_),
-      change_(texels_) {
+      change_(texels_),
+      softShadows_(scene, rays, texels_) {
     setRoomLight(field.atlas);
 }
 
@@ -104,7 +105,7 @@ void LightExchange::run(std::span<const Body> bodies, std::span<const Vec3> view
 }
 
 void LightExchange::place() {
-    lit_.clear(), spheres_.clear(), placed_.clear(), casters_.clear(), casterSpheres_.clear();
+    lit_.clear(), spheres_.clear(), placed_.clear(), casters_.clear(), shadowCasters_.clear();
     for (const Body& body : bodies_) {
         const DynamicObject& object = *body.object;
         lit_.push_back(body.light->lit());
@@ -114,7 +115,7 @@ void LightExchange::place() {
         spheres_.push_back({object.pose.point(bounds.centre), object.pose.scale * bounds.radius});
         if (!takesDirectLight(object)) continue;
         casters_.push_back(placed_.back());
-        casterSpheres_.push_back(spheres_.back());
+        shadowCasters_.push_back(casterOf(*object.model, object.pose));
     }
     instances_.place(placed_);
     casterInstances_.place(casters_);
@@ -137,17 +138,19 @@ void LightExchange::findEmitters() {
 }
 
 void LightExchange::findShadows() {
-    shadows_.clear(), emitted_.clear();
+    shadows_.clear(), weakShadows_.clear(), emitted_.clear();
     int samples = 1;
     for (const Body& body : bodies_)
         samples = std::max(samples, body.object->settings.directSamples);
     if (!casters_.empty()) {
-        const TexelLoss& loss = softShadows_.find(
-            scene_, roomRays_, texels_, coverage_, casterInstances_, casterSpheres_,
-            kShadowSamples * samples, kSlightShadow * luminance(meanIrradiance_));
+        const TexelLoss& loss =
+            softShadows_.find(coverage_, casterInstances_, shadowCasters_, kShadowSamples * samples,
+                              kSlightShadow * luminance(meanIrradiance_));
         for (std::size_t i = 0; i < loss.entries.size(); ++i)
             if (loss.loss[i] != Vec3(0))
                 shadows_.push_back({texels_.unwrap.texels[loss.entries[i]], -loss.loss[i]});
+        for (std::size_t i = 0; i < loss.groups.size(); ++i)
+            weakShadows_.push_back({loss.groups[i], -loss.groupLoss[i]});
     }
     for (const auto& emitters : emitters_)
         if (emitters && takesDirectLight(*bodies_[emitters->number].object))
@@ -164,7 +167,8 @@ void LightExchange::findShadows() {
 void LightExchange::exchange(const Surroundings& around) {
     const bool indirect = std::any_of(bodies_.begin(), bodies_.end(),
                                       [](const Body& body) { return body.light->changesRoom(); });
-    const bool changes = indirect || !shadows_.empty() || !emitted_.empty();
+    const bool changes =
+        indirect || !shadows_.empty() || !weakShadows_.empty() || !emitted_.empty();
     roomChanges_ = std::exchange(changedBefore_, changes) || changes;
     bounce_.clear();
     for (const Body& body : bodies_)
@@ -192,10 +196,12 @@ bool LightExchange::isDue(const Body& body) const {
 void LightExchange::changeRoom(bool bouncing) {
     change_.clear();
     for (const TexelChange& t : shadows_) change_.add(t.texel, t.irradiance);
+    for (const auto& [group, irradiance] : weakShadows_) change_.addToGroup(group, irradiance);
     for (const Body& body : bodies_) body.light->addChange(change_);
-    if (bouncing && !change_.texels().empty())
-        bounce_.find(change_, scene_, roomRays_, texels_, coverage_, {&instances_, lit_, kNoObject},
-                     roomFlux_);
+    if (bouncing && !change_.texels().empty()) {
+        if (bounceRays_.empty()) bounceRays_ = BounceRays(scene_, roomRays_, texels_);
+        bounce_.find(change_, bounceRays_, texels_, coverage_, roomFlux_);
+    }
     bounce_.addTo(change_, kLeastAmbient * luminance(meanIrradiance_));
     for (const TexelChange& t : emitted_) change_.add(t.texel, t.irradiance);
 }

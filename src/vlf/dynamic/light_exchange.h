@@ -13,6 +13,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace vlf {
@@ -74,13 +75,15 @@ class LightExchange {
     std::vector<Sphere> spheres_;               ///< around them
     RayInstances instances_, casterInstances_;  ///< of all; of those whose shadows are sampled
     std::vector<RayInstance> placed_, casters_;
-    std::vector<Sphere> casterSpheres_;
+    std::vector<ShadowCaster> shadowCasters_;
     std::vector<std::unique_ptr<const ObjectEmitters>> emitters_;
 
     Coverage coverage_;
     RoomChange change_;
     SoftShadows softShadows_;
     std::vector<TexelChange> shadows_, emitted_;
+    std::vector<std::pair<std::uint32_t, Vec3>> weakShadows_;  ///< of all texels of a group
+    BounceRays bounceRays_;                                    ///< once something bounces
     ChangeBounce bounce_;
     std::optional<ChangeSweep> sweep_;                  ///< once an object emits
     bool roomChanges_ = false, changedBefore_ = false;  ///< by objects, now or in the run before

@@ -2,9 +2,12 @@
 
 #include "vlf/base/error.h"
 #include "vlf/dynamic/subdivide.h"
+#include "vlf/math/random.h"
+#include "vlf/math/sampling.h"
 
 #include <algorithm>
 #include <map>
+#include <span>
 #include <utility>
 
 namespace vlf {
@@ -34,6 +37,28 @@ bool isClosed(const Scene& scene) {
     return std::all_of(balance.begin(), balance.end(), [](const auto& e) { return e.second == 0; });
 }
 
+/// Systematic sampling: along the triangles one after the other a point for every part of the area.
+float spreadPatches(const Scene& scene, std::span<SurfacePatch> patches) {
+    double all = 0, volume = 0;
+    for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) {
+        all += area(scene, t);
+        volume += glm::dot(scene.position(t, 0) - scene.position(0, 0), areaVector(scene, t));
+    }
+    const float outward = volume < 0 ? -1.0f : 1.0f;
+    const double part = all / static_cast<double>(patches.size());
+    double passed = 0;
+    std::uint32_t next = 0;
+    for (std::uint32_t t = 0; t < scene.triangles.size() && next < patches.size(); ++t) {
+        passed += area(scene, t);
+        const bool last = t + 1 == scene.triangles.size();
+        for (std::uint32_t k = 0; next < patches.size() && (last || (next + 0.5) * part < passed);
+             ++k, ++next)
+            patches[next] = {positionAt(scene, t, sampleUniformTriangle(r2Point(k, Vec2(0.5f)))),
+                             outward * geometricNormal(scene, t)};
+    }
+    return static_cast<float>(part);
+}
+
 }  // namespace
 
 ObjectMesh::ObjectMesh(Scene mesh) : scene(std::move(mesh)), rays(scene), closed(isClosed(scene)) {}
@@ -44,6 +69,7 @@ ObjectModel::ObjectModel(Scene scene) {
     if (scene.triangles.empty())
         throw InputError("an object needs at least one triangle that is not glass");
     bounds_ = boundingSphere(scene);
+    patchArea_ = spreadPatches(scene, patches_);
     emits_ = hasEmitter(scene);
     mirrors_ = hasMirror(scene);
     base_ = std::make_unique<const ObjectMesh>(std::move(scene));

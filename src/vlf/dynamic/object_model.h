@@ -23,6 +23,11 @@ struct ObjectMesh {
     std::size_t sidedVertexCount() const { return scene.positions.size() * (closed ? 1 : 2); }
 };
 
+/// A point of a surface, in the model's space.
+struct SurfacePatch {
+    Vec3 position, normal;  ///< unit, outward where the mesh is closed
+};
+
 /// Immutable but for meshes made when first asked for; safe to use from several threads.
 class ObjectModel {
   public:
@@ -37,6 +42,12 @@ class ObjectModel {
     /// Of its vertices, about the middle of its box.
     const Sphere& bounds() const { return bounds_; }
 
+    /// Points that stand for pieces of equal area, in the order of the triangles; of every second
+    /// or fourth the same is true.
+    static constexpr int kPatches = 96;
+    const std::array<SurfacePatch, kPatches>& patches() const { return patches_; }
+    float patchArea() const { return patchArea_; }  ///< m²
+
     bool emits() const { return emits_; }
     bool mirrors() const { return mirrors_; }
 
@@ -47,6 +58,8 @@ class ObjectModel {
   private:
     std::unique_ptr<const ObjectMesh> base_;
     Sphere bounds_;
+    std::array<SurfacePatch, kPatches> patches_;
+    float patchArea_ = 0;
     bool emits_ = false, mirrors_ = false;
     mutable std::mutex mutex_;
     mutable std::array<std::unique_ptr<const ObjectMesh>, kMaxSubdivision> subdivided_;

@@ -8,7 +8,9 @@ namespace vlf {
 
 namespace {
 
-constexpr std::size_t kBlock = 4096;  // texels
+constexpr std::size_t kBlock = 4096;         // texels
+constexpr std::size_t kGroupsPerBlock = 64;  // as many
+constexpr int kSide = RoomTexels::kGroupSide, kHalf = kSide / 2;
 
 /// Calls work(first, end) for parts of [0, count).
 template <class Work>
@@ -18,12 +20,47 @@ void inBlocks(std::size_t count, Work work) {
     });
 }
 
+/// Than zero.
+float noLess(float light) {
+    return light > 0 ? light : 0;
+}
+Vec3 noLess(const Vec3& light) {
+    return {noLess(light.x), noLess(light.y), noLess(light.z)};
+}
+
+/// Numbers of a group's row.
+void addRow(const float* own, const float* change, const float* start, const float* step, float v,
+            float* __restrict sum) {
+    for (int i = 0; i < 3 * kSide; ++i)
+        sum[i] = noLess(own[i] + (change[i] + (start[i] + v * step[i])));
+}
+
 }  // namespace
+
+/// Bilinear over the texels of a block, in texels from its first.
+struct RoomChange::EvenChange {
+    Vec3 start, alongU, alongV, both;
+
+    /// Between four corners.
+    EvenChange(const Vec3& c00, const Vec3& c10, const Vec3& c01, const Vec3& c11) {
+        constexpr float kStep = 1.0f / kHalf;
+        both = kStep * kStep * (c11 - c01 - c10 + c00);
+        alongU = kStep * (c10 - c00) + 0.5f * both;
+        alongV = kStep * (c01 - c00) + 0.5f * both;
+        start = c00 + 0.5f * (alongU + alongV) - 0.25f * both;
+    }
+
+    Vec3 at(int u, int v) const {
+        const auto x = static_cast<float>(u), y = static_cast<float>(v);
+        return start + x * alongU + y * (alongV + x * both);
+    }
+};
 
 RoomChange::RoomChange(const RoomTexels& room)
     : room_(room),
       change_(room.source.size(), Vec3(0)),
       touched_(room.source.size(), 0),
+      groupTouched_(room.groups.size(), 0),
       blocks_(room.blockArea.size(), Vec3(0)),
       groups_(room.groups.size(), Vec3(0)) {
     for (std::uint32_t t = 0; t < room.source.size(); ++t)
@@ -32,7 +69,8 @@ RoomChange::RoomChange(const RoomTexels& room)
 }
 
 void RoomChange::clear() {
-    for (const std::uint32_t t : texels_) change_[t] = Vec3(0), touched_[t] = 0;
+    for (const std::uint32_t t : texels_)
+        change_[t] = Vec3(0), touched_[t] = 0, groupTouched_[room_.groupOf[t]] = 0;
     texels_.clear();
     if (everywhere_) {
         std::fill(blocks_.begin(), blocks_.end(), Vec3(0));
@@ -45,44 +83,95 @@ void RoomChange::clear() {
 void RoomChange::findCorners() {
     if (!everywhere_) return;
     const auto find = [](const TexelLattice& lattice, const std::vector<Vec3>& cells,
-                         Corners& corners) {
-        corners.resize(cells.size());
-        for (std::size_t c = 0; c < cells.size(); ++c)
-            for (std::size_t k = 0; k < 4; ++k) {
+                         std::vector<Vec3>& corners) {
+        corners.resize(lattice.corners.size());
+        inBlocks(corners.size(), [&](std::size_t first, std::size_t end) {
+            for (std::size_t c = first; c < end; ++c) {
+                const TexelLattice::Corner& corner = lattice.corners[c];
                 Vec3 sum(0);
-                float count = 0;
-                for (const std::uint32_t cell : lattice.around[c][k])
-                    if (cell != TexelLattice::kNone) sum += cells[cell], ++count;
-                corners[c][k] = sum / count;
+                for (int k = 0; k < corner.count; ++k) sum += cells[corner.cells[k]];
+                corners[c] = sum / static_cast<float>(corner.count);
             }
+        });
     };
     find(room_.blockLattice, blocks_, blockCorners_);
     find(room_.groupLattice, groups_, groupCorners_);
 }
 
-Vec3 RoomChange::smoothChangeOf(std::uint32_t texel) const {
-    if (!everywhere_) return change_[texel];
-    const auto between = [](const std::array<Vec3, 4>& corner, float u, float v) {
-        return (1 - v) * ((1 - u) * corner[0] + u * corner[1]) +
-               v * ((1 - u) * corner[2] + u * corner[3]);
-    };
-    constexpr int kSide = RoomTexels::kGroupSide, kHalf = kSide / 2;
-    const int u = room_.placeOf[texel] & 7, v = room_.placeOf[texel] >> 3;
-    const std::uint32_t block = room_.blockOf[texel];
-    return change_[texel] + all_ +
-           between(groupCorners_[block / 4], (u + 0.5f) / kSide, (v + 0.5f) / kSide) +
-           between(blockCorners_[block], (u % kHalf + 0.5f) / kHalf, (v % kHalf + 0.5f) / kHalf);
+/// Of the block in row `v` and column `u` of a group.
+RoomChange::EvenChange RoomChange::evenChangeIn(std::uint32_t group, int u, int v) const {
+    std::array<Vec3, 4> c;
+    const auto& ofBlock = room_.blockLattice.cornersOf[4 * group + 2 * v + u];
+    const auto& ofGroup = room_.groupLattice.cornersOf[group];
+    for (int k = 0; k < 4; ++k) {
+        const float x = 0.5f * static_cast<float>(u + (k & 1));
+        const float y = 0.5f * static_cast<float>(v + (k >> 1));
+        const Vec3 low =
+            groupCorners_[ofGroup[0]] + x * (groupCorners_[ofGroup[1]] - groupCorners_[ofGroup[0]]);
+        const Vec3 high =
+            groupCorners_[ofGroup[2]] + x * (groupCorners_[ofGroup[3]] - groupCorners_[ofGroup[2]]);
+        c[k] = all_ + low + y * (high - low) + blockCorners_[ofBlock[k]];
+    }
+    return {c[0], c[1], c[2], c[3]};
+}
+
+/// Calls write(first, irradiance) for all covered texels, irradiance being `own` with the change of
+/// one texel or of several in a row.
+template <class Write>
+void RoomChange::forTexels(const IrradianceAtlas& own, Write write) const {
+    if (!everywhere_) {
+        parallelFor(room_.unwrap.texels.size(), kBlock, [&](std::size_t i) {
+            const std::uint32_t t = room_.unwrap.texels[i];
+            write(t, std::array{noLess(own.irradiance[t] + change_[t])});
+        });
+        return;
+    }
+    parallelFor(room_.groups.size(), kGroupsPerBlock, [&](std::size_t g) {
+        const TexelGroup& group = room_.groups[g];
+        const auto number = static_cast<std::uint32_t>(g);
+        const std::array even{evenChangeIn(number, 0, 0), evenChangeIn(number, 1, 0),
+                              evenChangeIn(number, 0, 1), evenChangeIn(number, 1, 1)};
+        if (group.count == kSide * kSide && group.open) return forRows(own, group, even, write);
+        for (std::uint32_t i = group.first; i < group.first + group.count; ++i) {
+            const std::uint32_t t = room_.unwrap.texels[room_.grouped[i]];
+            const int u = room_.placeOf[t] % kSide, v = room_.placeOf[t] / kSide;
+            Vec3 change = change_[t];
+            if (!room_.hidden[t])
+                change += even[v / kHalf * 2 + u / kHalf].at(u % kHalf, v % kHalf);
+            write(t, std::array{noLess(own.irradiance[t] + change)});
+        }
+    });
+}
+
+/// Of a group that is covered whole: along columns of a block the change is linear.
+template <class Write>
+void RoomChange::forRows(const IrradianceAtlas& own, const TexelGroup& group,
+                         const std::array<EvenChange, 4>& even, Write write) const {
+    for (int half = 0; half < 2; ++half) {
+        std::array<Vec3, kSide> start, step;
+        for (int u = 0; u < kSide; ++u) {
+            const EvenChange& block = even[2 * half + u / kHalf];
+            start[u] = block.at(u % kHalf, 0);
+            step[u] = block.at(u % kHalf, 1) - start[u];
+        }
+        for (int v = 0; v < kHalf; ++v) {
+            const std::uint32_t first = group.corner + (half * kHalf + v) * room_.unwrap.atlasWidth;
+            std::array<Vec3, kSide> row;
+            addRow(&own.irradiance[first].x, &change_[first].x, &start[0].x, &step[0].x,
+                   static_cast<float>(v), &row[0].x);
+            write(first, row);
+        }
+    }
 }
 
 void RoomChange::findRadiance(const IrradianceAtlas& own, std::vector<Vec3>& radiance) {
     findCorners();
-    const std::vector<std::uint32_t>& texels = room_.unwrap.texels;
-    inBlocks(texels.size(), [&](std::size_t first, std::size_t end) {
-        for (std::size_t i = first; i < end; ++i) {
-            const std::uint32_t t = texels[i];
-            radiance[t] = room_.reflectance[t] *
-                          glm::max(Vec3(0), own.irradiance[t] + smoothChangeOf(t)) / kPi;
-        }
+    forTexels(own, [&](std::uint32_t first, const auto& irradiance) {
+        const float* reflectance = &room_.reflectance[first].x;
+        const float* received = &irradiance[0].x;
+        float* sent = &radiance[first].x;
+        for (std::size_t k = 0; k < 3 * irradiance.size(); ++k)
+            sent[k] = reflectance[k] * received[k] * (1 / kPi);
     });
 }
 
@@ -90,17 +179,14 @@ void RoomChange::apply(const IrradianceAtlas& own, IrradianceAtlas& light) {
     if (empty() && !written_) return;
     written_ = !empty();
     findCorners();
-    const std::vector<std::uint32_t>& texels = room_.unwrap.texels;
-    inBlocks(texels.size(), [&](std::size_t first, std::size_t end) {
-        for (std::size_t i = first; i < end; ++i)
-            light.irradiance[texels[i]] =
-                glm::max(Vec3(0), own.irradiance[texels[i]] + smoothChangeOf(texels[i]));
+    forTexels(own, [&](std::uint32_t first, const auto& irradiance) {
+        std::copy(irradiance.begin(), irradiance.end(), light.irradiance.begin() + first);
     });
     inBlocks(followers_.size(), [&](std::size_t first, std::size_t end) {
         for (std::size_t i = first; i < end; ++i) {
             const auto [texel, source] = followers_[i];
-            light.irradiance[texel] =
-                glm::max(Vec3(0), own.irradiance[texel] + smoothChangeOf(source));
+            const Vec3 change = light.irradiance[source] - own.irradiance[source];
+            light.irradiance[texel] = noLess(own.irradiance[texel] + change);
         }
     });
 }

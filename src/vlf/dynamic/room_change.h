@@ -12,7 +12,8 @@
 
 namespace vlf {
 
-/// Of single texels, of all texels of a block or group (RoomTexels), and of all there are.
+/// Of single texels, of all texels of a block or group (RoomTexels), and of all there are, hidden
+/// ones left out.
 /// Irradiance in W·m⁻².
 class RoomChange {
   public:
@@ -26,6 +27,7 @@ class RoomChange {
         change_[texel] += irradiance;
         if (touched_[texel]) return;
         touched_[texel] = 1;
+        groupTouched_[room_.groupOf[texel]] = 1;
         texels_.push_back(texel);
     }
     void addToBlock(std::uint32_t block, const Vec3& irradiance) {
@@ -45,10 +47,11 @@ class RoomChange {
     std::span<const std::uint32_t> texels() const {
         return everywhere_ ? std::span<const std::uint32_t>(room_.unwrap.texels) : texels_;
     }
-    Vec3 of(std::uint32_t texel) const {
-        const std::uint32_t block = room_.blockOf[texel];
-        return change_[texel] + blocks_[block] + groups_[block / 4] + all_;
-    }
+    Vec3 of(std::uint32_t texel) const { return change_[texel] + ofBlock(room_.blockOf[texel]); }
+
+    /// Of all texels of a block alike, and whether single ones of a group have more than that.
+    Vec3 ofBlock(std::uint32_t block) const { return blocks_[block] + groups_[block / 4] + all_; }
+    bool variesIn(std::uint32_t group) const { return groupTouched_[group] != 0; }
 
     /// The radiance that the texels reflect with the change, by atlas texel. Here and below the
     /// change of blocks and groups is interpolated between them.
@@ -60,18 +63,23 @@ class RoomChange {
     void apply(const IrradianceAtlas& own, IrradianceAtlas& light);
 
   private:
-    using Corners = std::vector<std::array<Vec3, 4>>;
+    struct EvenChange;
 
     bool empty() const { return texels_.empty() && !everywhere_; }
     void findCorners();
-    Vec3 smoothChangeOf(std::uint32_t texel) const;
+    EvenChange evenChangeIn(std::uint32_t group, int u, int v) const;
+    template <class Write>
+    void forTexels(const IrradianceAtlas& own, Write write) const;
+    template <class Write>
+    void forRows(const IrradianceAtlas& own, const TexelGroup& group,
+                 const std::array<EvenChange, 4>& even, Write write) const;
 
     const RoomTexels& room_;
     std::vector<Vec3> change_;
-    std::vector<std::uint8_t> touched_;
+    std::vector<std::uint8_t> touched_, groupTouched_;
     std::vector<std::uint32_t> texels_;
     std::vector<Vec3> blocks_, groups_;
-    Corners blockCorners_, groupCorners_;
+    std::vector<Vec3> blockCorners_, groupCorners_;  ///< by corner of the lattices
     Vec3 all_{0};
     bool everywhere_ = false;
     bool written_ = false;  ///< the last call of apply changed something

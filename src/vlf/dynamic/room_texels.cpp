@@ -17,17 +17,19 @@ using CellPlace = std::tuple<std::uint32_t, int, int>;  ///< chart, place along 
 
 TexelLattice makeLattice(const std::map<CellPlace, std::uint32_t>& cells, std::size_t count) {
     TexelLattice lattice;
-    lattice.around.resize(count);
+    lattice.cornersOf.resize(count);
+    std::map<CellPlace, std::uint32_t> corners;
     for (const auto& [place, cell] : cells) {
         const auto& [chart, u, v] = place;
-        for (int corner = 0; corner < 4; ++corner)
-            for (int k = 0; k < 4; ++k) {
-                const CellPlace beside{chart, u - 1 + (corner & 1) + (k & 1),
-                                       v - 1 + (corner >> 1) + (k >> 1)};
-                const auto found = cells.find(beside);
-                lattice.around[cell][corner][k] =
-                    found == cells.end() ? TexelLattice::kNone : found->second;
-            }
+        for (int k = 0; k < 4; ++k) {
+            const auto number = static_cast<std::uint32_t>(lattice.corners.size());
+            const auto [found, isNew] =
+                corners.try_emplace(CellPlace(chart, u + (k & 1), v + (k >> 1)), number);
+            if (isNew) lattice.corners.push_back({{}, 0});
+            TexelLattice::Corner& corner = lattice.corners[found->second];
+            corner.cells[corner.count++] = cell;
+            lattice.cornersOf[cell][k] = found->second;
+        }
     }
     return lattice;
 }
@@ -56,7 +58,10 @@ void groupTexels(const Scene& scene, RoomTexels& room) {
             const std::uint32_t texel = unwrap.texels[keyed[end].second];
             room.grouped.push_back(keyed[end].second);
             room.groupOf[texel] = static_cast<std::uint32_t>(room.groups.size());
-            group.area += room.area[texel];
+            if (room.hidden[texel])
+                group.open = false;
+            else
+                group.area += room.area[texel];
             for (const SurfacePoint& p : unwrap.points.of(keyed[end].second))
                 bounds.add(positionAt(scene, p.triangle, p.barycentric));
         }
@@ -66,6 +71,7 @@ void groupTexels(const Scene& scene, RoomTexels& room) {
     }
     // A quarter of a group has the group's number times four and its place in it.
     room.blockArea.assign(4 * room.groups.size(), 0);
+    room.blockReflects.assign(4 * room.groups.size(), Vec3(0));
     constexpr std::uint32_t kHalf = RoomTexels::kGroupSide / 2;
     room.placeOf.assign(unwrap.atlasSize(), 0);
     std::map<CellPlace, std::uint32_t> groups, blocks;
@@ -75,8 +81,12 @@ void groupTexels(const Scene& scene, RoomTexels& room) {
         const std::uint32_t x = texel % unwrap.atlasWidth - chart.x;
         const std::uint32_t y = texel / unwrap.atlasWidth - chart.y;
         room.blockOf[texel] = 4 * room.groupOf[texel] + y / kHalf % 2 * 2 + x / kHalf % 2;
-        room.blockArea[room.blockOf[texel]] += room.area[texel];
+        if (!room.hidden[texel]) {
+            room.blockArea[room.blockOf[texel]] += room.area[texel];
+            room.blockReflects[room.blockOf[texel]] += room.area[texel] * room.reflectance[texel];
+        }
         constexpr std::uint32_t kSide = RoomTexels::kGroupSide;
+        room.groups[room.groupOf[texel]].corner = texel - x % kSide - y % kSide * unwrap.atlasWidth;
         room.placeOf[texel] = static_cast<std::uint8_t>(x % kSide | y % kSide << 3);
         const std::uint32_t c = unwrap.texelChart[i];
         groups.try_emplace(CellPlace(c, x / kSide, y / kSide), room.groupOf[texel]);
@@ -84,6 +94,24 @@ void groupTexels(const Scene& scene, RoomTexels& room) {
     }
     room.groupLattice = makeLattice(groups, room.groups.size());
     room.blockLattice = makeLattice(blocks, room.blockArea.size());
+}
+
+/// Something is close above one of their points.
+void findHidden(const Scene& scene, const RayScene& rays, RoomTexels& room) {
+    constexpr float kGap = 0.25f;  // of a texel's width
+    const Unwrap& unwrap = room.unwrap;
+    room.hidden.assign(unwrap.atlasSize(), 0);
+    parallelFor(unwrap.texels.size(), 512, [&](std::size_t i) {
+        const auto points = unwrap.points.of(i);
+        const SurfacePoint& p = points[points.size() / 2];
+        const RoomTriangle& triangle = room.triangles[p.triangle];
+        const bool front = triangle.charts.front == unwrap.texelChart[i];
+        const Vec3 normal = glm::normalize(front ? triangle.areaVector : -triangle.areaVector);
+        const float reach = kGap * unwrap.charts[unwrap.texelChart[i]].texelSize();
+        room.hidden[unwrap.texels[i]] =
+            rays.occluded({positionAt(scene, p.triangle, p.barycentric) + rays.epsilon() * normal,
+                           normal, 0, reach});
+    });
 }
 
 }  // namespace
@@ -121,6 +149,7 @@ RoomTexels makeRoomTexels(const Scene& scene, const RayScene& rays, const LightF
     parallelFor(unwrap.charts.size(), 16, [&](std::size_t c) {
         spreadOverChart(unwrap.charts[c], unwrap.atlasWidth, kNoTexel, room.source);
     });
+    findHidden(scene, rays, room);
     groupTexels(scene, room);
     for (const std::uint32_t t : unwrap.texels) {
         room.meanReflectance += room.area[t] * room.reflectance[t];

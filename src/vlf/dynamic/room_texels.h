@@ -15,12 +15,16 @@ namespace vlf {
 
 inline constexpr std::uint32_t kNoTexel = 0xffffffffu;
 
-/// Squares of a chart's texels and those beside them: around[c][k] are the four cells about corner
-/// k of cell c (k's bits: the far side along u, along v), kNone where there is none.
+/// Where squares (cells) of a chart's texels meet.
 struct TexelLattice {
-    static constexpr std::uint32_t kNone = 0xffffffffu;
-
-    std::vector<std::array<std::array<std::uint32_t, 4>, 4>> around;
+    /// The one to four cells about a corner.
+    struct Corner {
+        std::array<std::uint32_t, 4> cells;
+        int count;
+    };
+    std::vector<Corner> corners;
+    std::vector<std::array<std::uint32_t, 4>> cornersOf;  ///< by cell; bits of the place: the far
+                                                          ///< side along u, along v
 };
 
 inline constexpr std::uint32_t kNoLight = 0xffffffffu;
@@ -36,8 +40,10 @@ struct RoomTriangle {
 /// Covered texels that lie together.
 struct TexelGroup {
     Sphere bounds;                       ///< of their surface
-    float area = 0;                      ///< m²
+    float area = 0;                      ///< m², of those that are not hidden
+    bool open = true;                    ///< none is
     std::uint32_t first = 0, count = 0;  ///< in RoomTexels::grouped
+    std::uint32_t corner = 0;            ///< atlas texel of the least u and v of the square
 };
 
 /// What does not change while objects move. Arrays are by atlas texel.
@@ -50,6 +56,8 @@ struct RoomTexels {
     std::vector<std::uint32_t> source;   ///< the covered texel of the same chart that stands for a
                                          ///< texel, itself if it is covered; kNoTexel: none
     std::vector<std::uint8_t> excluded;  ///< 1: within a solid or cut by a wall: not to be seen
+    std::vector<std::uint8_t> hidden;    ///< 1: in a gap narrower than a quarter of a texel, which
+                                         ///< what comes to blocks and groups does not enter
     std::vector<Vec3> reflectance;       ///< diffuse, of covered texels
     std::vector<float> area;             ///< m², of covered texels
     std::vector<RoomTriangle> triangles;
@@ -57,7 +65,8 @@ struct RoomTexels {
     std::vector<std::uint32_t> grouped;  ///< entries of unwrap.texels
     std::vector<std::uint32_t> groupOf;  ///< of covered texels
     std::vector<std::uint32_t> blockOf;  ///< likewise: quarters of groups
-    std::vector<float> blockArea;        ///< m²
+    std::vector<float> blockArea;        ///< m², like that of groups
+    std::vector<Vec3> blockReflects;     ///< area by reflectance, m²
     std::vector<std::uint8_t> placeOf;   ///< in the group: three bits of u, three of v
     TexelLattice groupLattice, blockLattice;
     Vec3 meanReflectance{0};             ///< diffuse, over all area

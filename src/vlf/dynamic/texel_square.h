@@ -32,12 +32,10 @@ class TexelSquare {
         if (whole_) {
             std::array<Vec3, 9> grid;
             for (int i = 0; i < 9; ++i) grid[i] = find(entryAt(kAt[i % 3], kAt[i / 3]));
-            if (isEven(grid, slight)) {
-                for (int y = 0; y < kSide; ++y)
-                    for (int x = 0; x < kSide; ++x)
-                        keep(room_.unwrap.texels[entryAt(x, y)], interpolate(grid, x, y));
-                return;
-            }
+            const bool even = isEven(grid, slight);
+            for (int quarter = 0; quarter < 4; ++quarter)
+                lightQuarter(grid, quarter, even, slight, find, keep);
+            return;
         }
         for (const std::uint32_t entry : entries_)
             if (entry != kNoTexel) keep(room_.unwrap.texels[entry], find(entry));
@@ -48,11 +46,38 @@ class TexelSquare {
         0.03f;  // relative deviation of the middle from its interpolation
     static constexpr int kSide = RoomTexels::kGroupSide;
     static constexpr std::array<int, 3> kAt{0, 3, 7};
+    static constexpr std::array<int, 2> kMiddle{1, 5};
 
     std::uint32_t entryAt(int x, int y) const { return entries_[y * kSide + x]; }
 
-    static Vec3 interpolate(const std::array<Vec3, 9>& grid, int x, int y) {
-        const int i = x >= kAt[1], j = y >= kAt[1];
+    /// Of the texels between four of the nine; by themselves if one in the middle deviates.
+    template <class Find, class Keep>
+    void lightQuarter(const std::array<Vec3, 9>& grid, int quarter, bool even, float slight,
+                      Find& find, Keep& keep) const {
+        const int i = quarter % 2, j = quarter / 2;
+        const int endX = i == 0 ? kAt[1] : kSide, endY = j == 0 ? kAt[1] : kSide;
+        const int middleX = kMiddle[i], middleY = kMiddle[j];
+        const auto isNode = [&](int x, int y) {
+            return (x == kAt[i] || x == kAt[i + 1]) && (y == kAt[j] || y == kAt[j + 1]);
+        };
+        Vec3 middle(0);
+        if (!even) {
+            middle = find(entryAt(middleX, middleY));
+            const float straight = luminance(interpolate(grid, i, j, middleX, middleY));
+            even = std::abs(luminance(middle) - straight) <=
+                   std::max(slight, kEven * std::max(luminance(middle), straight));
+        }
+        for (int y = kAt[j]; y < endY; ++y)
+            for (int x = kAt[i]; x < endX; ++x) {
+                const std::uint32_t entry = entryAt(x, y);
+                keep(room_.unwrap.texels[entry], even || isNode(x, y)
+                                                     ? interpolate(grid, i, j, x, y)
+                                                 : x == middleX && y == middleY ? middle
+                                                                                : find(entry));
+            }
+    }
+
+    static Vec3 interpolate(const std::array<Vec3, 9>& grid, int i, int j, int x, int y) {
         const float u = static_cast<float>(x - kAt[i]) / static_cast<float>(kAt[i + 1] - kAt[i]);
         const float v = static_cast<float>(y - kAt[j]) / static_cast<float>(kAt[j + 1] - kAt[j]);
         const auto row = [&](int r) { return (1 - u) * grid[3 * r + i] + u * grid[3 * r + i + 1]; };

@@ -39,6 +39,10 @@ inline float receiverLobe(const Vec3& shading, const Vec3& geometric) {
     return 0.5f * (1 + glm::dot(shading, geometric));
 }
 
+/// Whether lines from within `receiver` to within `image`, what is seen of something in a planar
+/// mirror (with its LightSources::mirrorOffset), may cross the rectangle of the mirror.
+bool mayBeSeenIn(const Chart& mirror, float offset, const Sphere& receiver, const Sphere& image);
+
 /// Marks rays that something in the way of `lights` blocks, besides the room: blocked[i] = 1.
 /// Others are left alone.
 using ExtraOccluder = std::function<void(std::span<const Ray>, std::span<std::uint8_t> blocked)>;
@@ -60,6 +64,10 @@ class LightGatherer {
     /// Where lights are many, they are weighed once for all of these neighbours, which come next;
     /// an empty span: each receiver for itself again.
     void weighTogether(std::span<const LightReceiver> receivers);
+
+    /// Roughly the luminance of the unoccluded irradiance, W·m⁻²; zero only if it certainly is.
+    /// Reads of the receiver only its bounds and normal.
+    float likelyEffect(const LightReceiver& r, const LightImage& image) const;
 
     /// Irradiance by about `samples` shadow rays; `pass` tells independent estimates of the same
     /// receiver apart.
@@ -100,7 +108,6 @@ class LightGatherer {
     void weigh(const LightReceiver& receiver, Weights& weights) const;
     DirectEstimate gatherTogether(const LightReceiver& r, const Weights& weights, int n,
                                   RandomStream& random);
-    float likelyEffect(const LightReceiver& r, const LightImage& image) const;
     float likelyPunctual(const LightReceiver& r, const LightImage& image) const;
     float likelySky(const LightReceiver& r, const LightImage& image) const;
     bool mayBeSeenInMirror(const LightReceiver& r, const LightImage& image) const;

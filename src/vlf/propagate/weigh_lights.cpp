@@ -48,7 +48,6 @@ void LightGatherer::weigh(const LightReceiver& receiver, Weights& weights) const
     }
 }
 
-/// Roughly the unoccluded irradiance's luminance; zero only if it certainly is.
 float LightGatherer::likelyEffect(const LightReceiver& r, const LightImage& image) const {
     const Light& light = sources_.lights[image.light];
     if (light.kind == LightKind::punctual) return likelyPunctual(r, image);
@@ -69,23 +68,28 @@ float LightGatherer::likelyEffect(const LightReceiver& r, const LightImage& imag
     return luminance(light.radiance * image.throughput) * light.area * facing * emitting / squared;
 }
 
-/// Whether lines from the receiver to the image may cross the rectangle of the first mirror.
-bool LightGatherer::mayBeSeenInMirror(const LightReceiver& r, const LightImage& image) const {
-    const Chart& mirror = unwrap_.charts[image.mirror[0]];
-    const Light& light = sources_.lights[image.light];
-    const Vec3 centre = image.imageFromWorld.point(light.centre);
-    const float plane = sources_.mirrorOffset[image.mirror[0]];
-    const float before = glm::dot(mirror.normal, r.centre) - plane;
-    const float behind = plane - glm::dot(mirror.normal, centre);
-    if (before < -r.radius || behind < -light.radius) return false;
+bool mayBeSeenIn(const Chart& mirror, float offset, const Sphere& receiver, const Sphere& image) {
+    const float before = glm::dot(mirror.normal, receiver.centre) - offset;
+    const float behind = offset - glm::dot(mirror.normal, image.centre);
+    if (before < -receiver.radius || behind < -image.radius) return false;
     const float share = std::max(before, 0.0f) / std::max(before + behind, 1e-20f);
-    const Vec2 crossing = mirror.texelCoordinates(r.centre + share * (centre - r.centre));
+    const Vec2 crossing =
+        mirror.texelCoordinates(receiver.centre + share * (image.centre - receiver.centre));
     // How far the crossing moves as the ends move within their spheres, seen aslant.
-    const float cosine = std::max(before + behind, 1e-20f) / glm::distance(centre, r.centre);
-    const float reach = (share * light.radius + (1 - share) * r.radius) / cosine;
+    const float cosine =
+        std::max(before + behind, 1e-20f) / glm::distance(image.centre, receiver.centre);
+    const float reach = (share * image.radius + (1 - share) * receiver.radius) / cosine;
     const Vec2 margin(reach * glm::length(mirror.uAxis), reach * glm::length(mirror.vAxis));
     return crossing.x > -margin.x && crossing.x < mirror.width + margin.x &&
            crossing.y > -margin.y && crossing.y < mirror.height + margin.y;
+}
+
+/// By the first mirror.
+bool LightGatherer::mayBeSeenInMirror(const LightReceiver& r, const LightImage& image) const {
+    const Light& light = sources_.lights[image.light];
+    return mayBeSeenIn(unwrap_.charts[image.mirror[0]], sources_.mirrorOffset[image.mirror[0]],
+                       {r.centre, r.radius},
+                       {image.imageFromWorld.point(light.centre), light.radius});
 }
 
 }  // namespace vlf

@@ -2,6 +2,10 @@
 #include "vlf/base/error.h"
 #include "vlf/scene/generate/primitives.h"
 
+#include <algorithm>
+#include <cmath>
+#include <string>
+
 #include <gtest/gtest.h>
 
 namespace vlf {
@@ -41,6 +45,23 @@ TEST(ObjectModel, SubdivisionKeepsTheSurface) {
 
 TEST(ObjectModel, NothingIsNoObject) {
     EXPECT_THROW(ObjectModel(Scene{}), InputError);
+}
+
+TEST(ObjectModel, HasPatchesThatTogetherAreAsLargeAsItsSilhouette) {
+    for (const std::string name : {"cube", "sphere"}) {
+        const ObjectModel model(makePrimitive(name, {}));
+        for (const Vec3& eye : {Vec3(0, 0, 1), Vec3(0.6f, 0.8f, 0), Vec3(0.48f, -0.6f, 0.64f)}) {
+            const float truth =
+                name == "cube" ? std::abs(eye.x) + std::abs(eye.y) + std::abs(eye.z) : 0.25f * kPi;
+            for (const std::size_t step : {1u, 2u, 4u}) {
+                float silhouette = 0;
+                for (std::size_t k = step / 2; k < model.patches().size(); k += step)
+                    silhouette += std::max(0.0f, glm::dot(model.patches()[k].normal, eye)) *
+                                  model.patchArea() * static_cast<float>(step);
+                EXPECT_NEAR(silhouette / truth, 1, 0.1f) << name;
+            }
+        }
+    }
 }
 
 }  // namespace

@@ -53,11 +53,10 @@ class SoftShadow : public testing::Test {
         const RayInstance instance{&model.mesh().rays, pose};
         RayInstances instances;
         instances.place({&instance, 1});
-        const Sphere sphere{pose.point(model.bounds().centre), pose.scale * model.bounds().radius};
-        candidates = texelsInShadow(plates().scene, plates().texels, {&sphere, 1});
-        SoftShadows shadows;
-        loss = shadows.find(plates().scene, plates().rays, plates().texels,
-                               Coverage(plates().texels), instances, {&sphere, 1}, samples, 0);
+        const ShadowCaster caster = casterOf(model, pose);
+        candidates = texelsInShadow(plates().scene, plates().rays, plates().texels, {&caster, 1});
+        SoftShadows shadows(plates().scene, plates().rays, plates().texels);
+        loss = shadows.find(Coverage(plates().texels), instances, {&caster, 1}, samples, 0);
     }
 
     Vec3 centre(std::uint32_t entry) const {
@@ -139,6 +138,78 @@ TEST_F(SoftShadow, IsNoneOfWhatIsBehindTheLampOrBesideIt) {
         cast(makePrimitive("sphere", {}), {place, {1, 0, 0, 0}, 0.4f});
         for (std::size_t i = 0; i < loss.entries.size(); ++i) EXPECT_EQ(loss.loss[i], Vec3(0));
     }
+}
+
+/// Of one of the plates' texels, W.
+float fluxOf(const LitRoom& room, const TexelLoss& loss) {
+    float flux = 0;
+    for (std::size_t i = 0; i < loss.entries.size(); ++i)
+        flux += room.texels.area[room.texels.unwrap.texels[loss.entries[i]]] * loss.loss[i].x;
+    for (std::size_t i = 0; i < loss.groups.size(); ++i)
+        flux += room.texels.groups[loss.groups[i]].area * loss.groupLoss[i].x;
+    return flux;
+}
+
+/// Of a ball of 0.2 m; errors of `slight` do not matter.
+TexelLoss ofABall(const LitRoom& room, const Vec3& at, float slight) {
+    const ObjectModel model(makePrimitive("sphere", {}));
+    const Pose pose{at, {1, 0, 0, 0}, 0.2f};
+    const RayInstance instance{&model.mesh().rays, pose};
+    RayInstances instances;
+    instances.place({&instance, 1});
+    const ShadowCaster caster = casterOf(model, pose);
+    SoftShadows shadows(room.scene, room.rays, room.texels);
+    return shadows.find(Coverage(room.texels), instances, {&caster, 1}, 64, slight);
+}
+
+TEST(WeakShadow, IsSpreadOverSquaresOfTexels) {
+    const TexelLoss every = ofABall(plates(), {0, 1.5f, 0}, 0);
+    const TexelLoss weak = ofABall(plates(), {0, 1.5f, 0}, 0.02f);
+    EXPECT_TRUE(every.groups.empty());
+    EXPECT_FALSE(weak.groups.empty());
+    EXPECT_LT(weak.entries.size(), every.entries.size());
+    EXPECT_NEAR(fluxOf(plates(), weak) / fluxOf(plates(), every), 1, 0.1);
+}
+
+/// The plates with a mirror along x = 2.
+const LitRoom& platesBesideAMirror() {
+    static const LitRoom room(
+        [] {
+            SceneBuilder b;
+            b.quad({-2, 0, -2}, {0, 0, 4}, {4, 0, 0}, b.material("floor", Vec3(0)));
+            b.quad({-0.5f, 2, -0.5f}, {1, 0, 0}, {0, 0, 1},
+                   b.material("lamp", Vec3(0), Vec3(kRadiance)));
+            b.quad({2, 0, -2}, {0, 0, 4}, {0, 2, 0},
+                   b.material("mirror", Vec3(0), Vec3(0), Vec3(0.9f)));
+            return b.scene();
+        }(),
+        Vec3(0));
+    return room;
+}
+
+TEST(ShadowBesideAMirror, IsWhatShadowRaysAreBlockedByTheObject) {
+    const LitRoom& room = platesBesideAMirror();
+    ASSERT_EQ(room.texels.sources.images.size(), 2u);
+    const Vec3 at(1.2f, 1, 0);
+    const TexelLoss loss = ofABall(room, at, 0);
+    const ObjectModel model(makePrimitive("sphere", {}));
+    const RayInstance instance{&model.mesh().rays, {at, {1, 0, 0, 0}, 0.2f}};
+    RayInstances instances;
+    instances.place({&instance, 1});
+    LightGatherer gatherer(room.scene, room.rays, room.texels.unwrap, room.texels.sources, 0);
+    gatherer.setExtraOccluder(occluderOf(instances));
+    const std::vector<std::uint8_t> mirrored{0, 1};
+    float all = 0, inMirror = 0;
+    for (std::size_t i = 0; i < room.texels.unwrap.texels.size(); ++i) {
+        const LightReceiver texel = texelReceiver(room.scene, room.texels.unwrap, i);
+        const float area = room.texels.area[room.texels.unwrap.texels[i]];
+        gatherer.setImages({});
+        all += area * gatherer.irradianceBlocked(texel, 256).x;
+        gatherer.setImages(mirrored);
+        inMirror += area * gatherer.irradianceBlocked(texel, 256).x;
+    }
+    EXPECT_GT(inMirror, 0.1f * all);
+    EXPECT_NEAR(fluxOf(room, loss) / all, 1, 0.03);
 }
 
 }  // namespace
