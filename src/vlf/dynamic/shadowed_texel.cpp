@@ -14,7 +14,6 @@ constexpr float kLarger = 2;
 constexpr float kWorthAPatch = 0.5f;  // slight errors
 constexpr float kNothing = 0.5f;      // likewise: not worth to be known
 constexpr float kSameDistance = 1e-3f;
-constexpr int kFirst = 4;  // of so many samples one tells whether there is a shadow
 
 /// Of a sphere; of one around the point, all there is.
 float solidAngleOf(const Vec3& point, const Sphere& sphere) {
@@ -51,8 +50,7 @@ Vec3 ShadowedTexel::loss(const LightReceiver& receiver) {
     Vec3 sum(0);
     if (anySampled_) {
         gatherer_.setImages(memory_.sampled);
-        if (gatherer_.irradianceBlocked(receiver, sampling_.samples / kFirst) != Vec3(0))
-            sum += gatherer_.irradianceBlocked(receiver, sampling_.samples);
+        sum += gatherer_.irradianceBlocked(receiver, sampling_.samples);
     }
     if (!memory_.spots.empty()) findPoints(receiver);
     for (const Spot& spot : memory_.spots) sum += behind(spot);
