@@ -116,6 +116,8 @@ class Pipeline(Case):
         self.bake("room.vlf", "--json", "bake.json", "--error-map", "map.png", "--size", "80x60")
         error = self.json("bake.json")["estimatedError"]
         self.assertTrue(0 < error["ofTexels"] < error["interpolated"] < 0.3, error)
+        self.run_vlf("info", "room.vlf", "--json", "info.json")
+        self.assertEqual(self.json("info.json")["bake"]["texelError"], error["ofTexels"])
         self.assertGreater((self.folder / "map.png").stat().st_size, 500)
         self.run_vlf("reference", "cornell.obj", "--irradiance", "room.vlf", "--spp", "256",
                      "--texels", "100", "--interpolated", "-o", "error.json")

@@ -1,8 +1,8 @@
 #pragma once
 // The virtual light field: everything the light transport found, as plain data. Two
 // representations exist: the irradiance atlas (diffuse light; read by every renderer) and the
-// radiance field (mirror charts; read in `field` mode), of which there are two: what perfect mirrors
-// show is sharp, what rough ones show is not and needs fewer directions and cells.
+// radiance field (mirror charts; read in `field` mode), of which there are two: what perfect
+// mirrors show is sharp, what rough ones show is not and needs fewer directions and cells.
 
 #include "vlf/field/chart.h"
 #include "vlf/field/irradiance_atlas.h"
@@ -37,11 +37,13 @@ struct BakeRecord {
     int radianceCells = 0;
     int glossDirections = 0;  ///< the same of rough mirrors
     int glossCells = 0;
-    int tileSize = 0;       ///< m
-    float texelSize = 0;    ///< metres
-    int directSamples = 0;  ///< per texel
-    int bounces = 0;        ///< sweeps done
-    double residual = 0;    ///< estimated light still missing, relative
+    int tileSize = 0;              ///< m
+    float texelSize = 0;           ///< metres
+    int directSamples = 0;         ///< per texel
+    int bounces = 0;               ///< sweeps done
+    double residual = 0;           ///< estimated light still missing, relative
+    double texelError = 0;         ///< estimated relative RMSE of the texels' irradiance
+    double interpolatedError = 0;  ///< the same, with what interpolation between them misses
     EnergyReport energy;
 };
 

@@ -17,7 +17,7 @@
 
 namespace vlf {
 
-inline constexpr std::uint32_t kFormatVersion = 3;
+inline constexpr std::uint32_t kFormatVersion = 4;
 
 /// Most bytes of a block before compression, and most bytes of memory it may fill.
 inline constexpr std::size_t kMaxBlockBytes = std::size_t{1} << 20;

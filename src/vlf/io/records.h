@@ -36,7 +36,7 @@ void describe(S& s, Field<S, BakeRecord> r) {
     s(r.programVersion, r.instructionSet, r.sceneHash, r.preset, r.seed);
     s(r.directions, r.cells, r.radianceDirections, r.radianceCells);
     s(r.glossDirections, r.glossCells, r.tileSize, r.texelSize);
-    s(r.directSamples, r.bounces, r.residual, r.energy);
+    s(r.directSamples, r.bounces, r.residual, r.texelError, r.interpolatedError, r.energy);
 }
 
 template <class S>

@@ -210,8 +210,9 @@ void checkAtlas(const IrradianceAtlas& atlas, const std::string& path) {
 void checkBakeRecord(const BakeRecord& record, const std::string& path) {
     const EnergyReport& e = record.energy;
     Checker(path, "bake")(std::isfinite(record.texelSize) && std::isfinite(record.residual) &&
-                              isFinite(e.emitted) && isFinite(e.absorbed) && isFinite(e.unshot) &&
-                              isFinite(e.escaped),
+                              std::isfinite(record.texelError) &&
+                              std::isfinite(record.interpolatedError) && isFinite(e.emitted) &&
+                              isFinite(e.absorbed) && isFinite(e.unshot) && isFinite(e.escaped),
                           "has a number that is not finite");
 }
 

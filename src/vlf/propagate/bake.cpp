@@ -263,6 +263,8 @@ LightField finish(BakeState& state, Progress& progress, const BakeObserver& obse
         r.directions = nearestSet(static_cast<double>(state.refinement.sweptLines));
     r.bounces = state.report.sweeps;
     r.residual = state.report.residual;
+    r.texelError = state.report.error.ofTexels();
+    r.interpolatedError = state.report.error.interpolated();
     r.energy = state.report.energy;
     return field;
 }

@@ -297,6 +297,8 @@ BakeRecord makeRecord(const ExampleSize& size) {
     record.directSamples = 36;
     record.bounces = 7;
     record.residual = 1e-4;
+    record.texelError = 0.003;
+    record.interpolatedError = 0.008;
     record.energy = {Vec3(100, 90, 80), Vec3(99, 89, 79), Vec3(0.5f), Vec3(0.5f)};
     return record;
 }

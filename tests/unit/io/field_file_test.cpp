@@ -175,6 +175,8 @@ TEST(FieldFile, KeepsFrameAndBakeRecordExactly) {
     EXPECT_EQ(a.directSamples, b.directSamples);
     EXPECT_EQ(a.bounces, b.bounces);
     EXPECT_EQ(a.residual, b.residual);
+    EXPECT_EQ(a.texelError, b.texelError);
+    EXPECT_EQ(a.interpolatedError, b.interpolatedError);
     EXPECT_EQ(a.energy.emitted, b.energy.emitted);
     EXPECT_EQ(a.energy.absorbed, b.energy.absorbed);
     EXPECT_EQ(a.energy.unshot, b.energy.unshot);

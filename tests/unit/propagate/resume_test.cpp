@@ -84,6 +84,7 @@ void expectSame(const LightField& a, const LightField& b) {
     EXPECT_EQ(a.radiance.rows.size(), b.radiance.rows.size());
     EXPECT_EQ(a.record.bounces, b.record.bounces);
     EXPECT_EQ(a.record.residual, b.record.residual);
+    EXPECT_EQ(a.record.texelError, b.record.texelError);
     EXPECT_EQ(a.record.energy.absorbed, b.record.energy.absorbed);
 }
 
