@@ -23,8 +23,8 @@ struct DirectEstimate {
     /// The variance summed over the channels, which vary together.
     float squareError() const {
         const float light = luminance(value);
-        const float channels = light > 0 ? glm::dot(value, value) / (light * light) : 3.0f;
-        return channels * evenVariance;
+        const Vec3 relative = light > 0 ? value / light : Vec3(1);
+        return glm::dot(relative, relative) * evenVariance;
     }
 
     void add(const DirectEstimate& other, float scale) {

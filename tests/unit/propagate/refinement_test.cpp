@@ -255,4 +255,9 @@ TEST(Refinement, RefusesWhatNeverEnds) {
     EXPECT_THROW(baked(smallCornell(), p), InputError);
 }
 
+TEST(DirectEstimate, OfNextToNoLightHasAFiniteError) {
+    const DirectEstimate dark{.value = Vec3(1e-30f), .evenVariance = 1e-12f};
+    EXPECT_TRUE(std::isfinite(dark.squareError()));
+}
+
 }  // namespace vlf::test
