@@ -13,6 +13,7 @@
 #include "vlf/propagate/bake.h"
 #include "vlf/propagate/bundle_sweep.h"
 #include "vlf/propagate/memory.h"
+#include "vlf/propagate/texel_plan.h"
 #include "vlf/render/cpu/texel_picture.h"
 #include "vlf/scene/scene_hash.h"
 
@@ -40,6 +41,7 @@ struct Options {
     double maxMemory = 0;         // GiB
     double checkpointEvery = 60;  // seconds; 0: never
     bool resume = false;
+    bool adaptiveTexels = false;
 };
 
 Scene readScene(const Options& options, const Globals& globals) {
@@ -67,6 +69,9 @@ nlohmann::ordered_json toJson(const Options& options, const BakeReport& report,
     nlohmann::ordered_json stages = nlohmann::ordered_json::array();
     for (const BakeReport::Stage& s : report.stages)
         stages.push_back({{"name", s.name}, {"seconds", s.seconds}, {"cpuSeconds", s.cpuSeconds}});
+    nlohmann::ordered_json scales = nlohmann::ordered_json::array();
+    for (const BakeReport::TexelScale& s : report.texelScales)
+        scales.push_back({{"size", s.scale * record.texelSize}, {"texels", s.texels}});
     const EnergyReport& e = report.energy;
     return {{"scenes", options.scenes},
             {"output", options.output},
@@ -76,6 +81,7 @@ nlohmann::ordered_json toJson(const Options& options, const BakeReport& report,
             {"cells", record.cells},
             {"texelSize", record.texelSize},
             {"texels", report.texels},
+            {"texelSizes", scales},
             {"radianceElements", report.radianceElements},
             {"fileBytes", fileBytes(options.output)},
             {"exchanges", report.exchanges},
@@ -198,7 +204,8 @@ void run(const Options& options, const Globals& globals) {
     const BakeOutput output(options.output);
     if (!options.instructionSet.empty()) useInstructionSet(options.instructionSet);
     const auto start = std::chrono::steady_clock::now();
-    const BakeParams params = bakeParams(options.quality, globals);
+    BakeParams params = bakeParams(options.quality, globals);
+    params.adaptiveTexels = options.adaptiveTexels;
     BakedRoom room;
     room.scene = readScene(options, globals);
     const Camera camera =
@@ -222,6 +229,7 @@ void run(const Options& options, const Globals& globals) {
             }
             progress.keep(state);
         };
+        if (params.adaptiveTexels) params.pieces = planTexels(room.scene, params, progress);
         room.field = bake(room.scene, params, progress, &report, keep, std::move(solution));
         progress.stage("writing");
         room.field.record.programVersion = VLF_VERSION;
@@ -247,6 +255,8 @@ void addBake(CLI::App& app, const Globals& globals) {
     command->add_option("-o,--output", options->output, "Field file to write (.vlf)")->required();
     addEnvironmentOptions(*command, options->environment);
     addQualityOptions(*command, options->quality);
+    command->add_flag("--adaptive-texels", options->adaptiveTexels,
+                      "Smaller texels where light bends, larger ones elsewhere");
     command
         ->add_option(
             "--max-memory", options->maxMemory,
@@ -275,6 +285,7 @@ void addBake(CLI::App& app, const Globals& globals) {
         "Examples:\n"
         "  vlf bake room.obj -o room.vlf\n"
         "  vlf bake room.glb lights.obj -o room.vlf --preset high --texel 0.03\n"
+        "  vlf bake room.obj -o room.vlf --adaptive-texels\n"
         "  vlf bake room.obj -o room.vlf --error 1% --error-map error.png\n"
         "  vlf bake house.obj -o house.vlf --environment sky.hdr --environment-turn 90\n"
         "  vlf bake room.obj -o room.vlf --resume\n"

@@ -29,11 +29,12 @@ bool isWorthKeeping(const BakeSolution& solution) {
 
 /// All that has influence on the bits of a bake, by the name of its option where it has one.
 CheckpointIdentity identityOf(const BakeParams& params, const std::string& sceneHash) {
-    // Names all members: one that is added has to be thought of here.
+    // Names all members: one that is added has to be thought of here. The pieces follow from the
+    // rest.
     const auto& [preset, directions, cells, texelSize, texelBudget, directSamples, coarseDirections,
                  coarseCells, maxBounces, tolerance, settlingSweeps, radianceDirections,
                  radianceCells, glossDirections, glossCells, gloss, tileSize, error, seconds,
-                 refinements, seed] = params;
+                 refinements, adaptiveTexels, pieces, seed] = params;
     const auto text = [](const auto& value) { return fmt::format("{}", value); };
     return {{"the program's version", VLF_VERSION},
             {"the scene's fingerprint", sceneHash},
@@ -43,6 +44,7 @@ CheckpointIdentity identityOf(const BakeParams& params, const std::string& scene
             {"--cells", text(cells)},
             {"--texel", text(texelSize)},
             {"the budget of texels", text(texelBudget)},
+            {"--adaptive-texels", adaptiveTexels ? "yes" : "no"},
             {"--direct-samples", text(directSamples)},
             {"directions of the first sweeps", text(coarseDirections)},
             {"cells of the first sweeps", text(coarseCells)},

@@ -123,6 +123,23 @@ class Pipeline(Case):
                      "--texels", "100", "--interpolated", "-o", "error.json")
         self.assertEqual(len(self.json("error.json")["texels"]), 100)
 
+    def test_adaptive_texels_are_told_shown_and_measured(self):
+        for threads in ("1", "3"):
+            self.run_vlf("bake", "cornell.obj", "-o", f"{threads}.vlf", "--preset", "draft",
+                         "--texel", "0.06", "--cells", "64", "--threads", threads,
+                         "--adaptive-texels", "--json", "bake.json")
+        self.assertEqual((self.folder / "1.vlf").read_bytes(),
+                         (self.folder / "3.vlf").read_bytes())
+        report = self.json("bake.json")
+        sizes = report["texelSizes"]
+        self.assertGreater(len(sizes), 2)
+        self.assertEqual(sum(size["texels"] for size in sizes), report["texels"])
+        self.assertLess(sizes[0]["size"], report["texelSize"])
+        self.run_vlf("reference", "cornell.obj", "--irradiance", "1.vlf", "--spp", "256",
+                     "--texels", "100", "--interpolated", "-o", "error.json")
+        self.assertLess(self.json("error.json")["relativeRmse"], 0.1)
+        self.run_vlf("render", "1.vlf", "--size", "80x60", "-o", "room.png")
+
     def test_a_bake_ends_at_the_error_asked_for(self):
         self.bake("one.vlf", "--json", "bake.json", "--error", "0.6%")
         report = self.json("bake.json")

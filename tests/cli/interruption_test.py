@@ -118,6 +118,17 @@ class Resume(Bakes):
             (self.folder / "bake.json").unlink()
             self.assertEqual(self.take(), self.whole())
 
+    def test_a_bake_with_adaptive_texels_goes_on_to_the_same_bits(self):
+        self.run_vlf(*self.command("--adaptive-texels", checkpoint="0"))
+        whole = self.take()
+        self.assertNotEqual(whole, self.whole())
+        self.assertNotIn("keeps the bake", self.interrupted_in("texel sizes", "--adaptive-texels"))
+        self.assertEqual(self.files(), self.scene)
+        self.interrupted_in("bounces", "--adaptive-texels")
+        self.run_vlf(*self.command("--resume"), code=BAD_INPUT, says=["--adaptive-texels"])
+        self.run_vlf(*self.command("--adaptive-texels", "--resume", checkpoint="0.02"))
+        self.assertEqual(self.take(), whole)
+
     def test_interrupted_before_there_is_light_nothing_is_kept(self):
         self.interrupted_in("charts", texel="0.005")
         self.assertEqual(self.files(), self.scene)

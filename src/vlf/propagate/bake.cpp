@@ -10,6 +10,7 @@
 #include <array>
 #include <chrono>
 #include <ctime>
+#include <map>
 #include <utility>
 
 namespace vlf {
@@ -97,16 +98,28 @@ EnergyReport energyBalance(const BakeState& state) {
     return {Vec3(emitted), Vec3(absorbed), Vec3(unshot), Vec3(emitted - absorbed - unshot)};
 }
 
-void checkParams(const BakeParams& p) {
+void checkParams(const BakeParams& p, std::size_t triangles) {
     if (p.cells < 16 || p.cells > 8192)
         throw InputError("cells must lie between 16 and 8192, not " + std::to_string(p.cells));
     if (p.texelSize < 0) throw InputError("the texel size must be positive");
     if (p.error < 0 || p.seconds < 0 || p.refinements < 0)
         throw InputError("what ends the refinement must be positive");
     if (refines(p) && p.maxBounces > 0)
-        throw InputError("a refinement (--error, --seconds, --refinements) needs light at rest: "
-                         "leave the bounces to it (--bounces auto)");
+        throw InputError(
+            "a refinement (--error, --seconds, --refinements) needs light at rest: "
+            "leave the bounces to it (--bounces auto)");
+    if (!p.pieces.empty() && p.pieces.size() != triangles)
+        throw InputError("the pieces are those of another scene");
     if (p.directSamples < 1) throw InputError("direct light needs at least one sample");
+}
+
+std::vector<BakeReport::TexelScale> countTexels(const Unwrap& u, const TexelPieces& pieces) {
+    std::map<float, std::size_t> counts;
+    for (std::size_t i = 0; i < u.texels.size(); ++i)
+        ++counts[pieces.empty() ? 1 : pieces[u.points.of(i)[0].triangle].scale];
+    std::vector<BakeReport::TexelScale> scales;
+    for (const auto& [scale, texels] : counts) scales.push_back({scale, texels});
+    return scales;
 }
 
 /// Everything before light.
@@ -114,9 +127,15 @@ void layOut(BakeState& state, Progress& progress) {
     const BakeParams& p = state.params;
     state.frame = frameOf(state.scene);
     state.unwrap = timed(state.report, progress, "charts", [&] {
-        return unwrap(state.scene, state.rays, {p.texelSize, p.texelBudget, p.seed}, progress);
+        return unwrap(state.scene, state.rays,
+                      {.texelSize = p.texelSize,
+                       .texelBudget = p.texelBudget,
+                       .seed = p.seed,
+                       .pieces = p.pieces},
+                      progress);
     });
     state.report.texels = state.unwrap.texels.size();
+    state.report.texelScales = countTexels(state.unwrap, p.pieces);
     state.faces = makeBundleFaces(state.scene, state.unwrap, state.frame);
     state.sources = findLightSources(state.scene, state.unwrap);
     state.bentTexels = findBentTexels(state.scene, state.unwrap);
@@ -143,7 +162,7 @@ void lightDirectly(BakeState& state, Progress& progress, const BakeObserver& obs
 
 /// The field after zero bounces, or what the state goes on from.
 void begin(BakeState& state, Progress& progress, const BakeObserver& observe) {
-    checkParams(state.params);
+    checkParams(state.params, state.scene.triangles.size());
     layOut(state, progress);
     observe(state);
     if (state.stage > BakeStage::charts) return;

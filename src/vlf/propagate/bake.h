@@ -46,6 +46,8 @@ struct BakeParams {
     double error = 0;     ///< estimated error of the texels, relative; 0: none
     double seconds = 0;   ///< in all, as far as can be foretold; 0: none
     int refinements = 0;  ///< so many steps, as a bake that ended in time has taken; 0: none
+    bool adaptiveTexels = false;  ///< whether `pieces` are to be planned, see texel_plan.h
+    TexelPieces pieces{};         ///< of the scene's surfaces; empty: even texels
     std::uint64_t seed = 0;
 };
 

@@ -64,6 +64,12 @@ struct BakeReport {
         double cpuSeconds = 0;  ///< of all threads of the process
     };
     std::vector<Stage> stages;  ///< of this process, without what it went on from
+    /// Texels of the pieces of one scale, see TexelPiece.
+    struct TexelScale {
+        float scale = 1;
+        std::size_t texels = 0;
+    };
+    std::vector<TexelScale> texelScales;  ///< ascending
     std::size_t texels = 0;
     std::size_t radianceElements = 0;  ///< of perfect and rough mirrors
     std::uint64_t exchanges = 0;

@@ -83,8 +83,9 @@ class Occupancy {
 
 class Grouper {
   public:
-    Grouper(const Scene& scene, float texelSize)
+    Grouper(const Scene& scene, float texelSize, const TexelPieces& pieces)
         : scene_(scene),
+          pieces_(pieces),
           texelSize_(texelSize),
           planeTolerance_(kPlaneTolerance * boundingSphere(scene).radius),
           adjacency_(makeAdjacency(scene)) {}
@@ -112,7 +113,7 @@ class Grouper {
         patchOf_[seed] = id;
         for (std::size_t i = 0; i < patch.triangles.size(); ++i)
             forNeighbours(patch.triangles[i], [&](const EdgeNeighbour& n) {
-                if (patchOf_[n.triangle] != kUnassigned || !sameMaterial(seed, n.triangle) ||
+                if (patchOf_[n.triangle] != kUnassigned || !belongTogether(seed, n.triangle) ||
                     !coplanar(patch.normal, seed, n.triangle))
                     return;
                 patchOf_[n.triangle] = id;
@@ -130,8 +131,10 @@ class Grouper {
         return true;
     }
 
-    bool sameMaterial(std::uint32_t a, std::uint32_t b) const {
-        return scene_.triangles[a].material == scene_.triangles[b].material;
+    /// By material and piece.
+    bool belongTogether(std::uint32_t a, std::uint32_t b) const {
+        return scene_.triangles[a].material == scene_.triangles[b].material &&
+               (pieces_.empty() || pieces_[a].piece == pieces_[b].piece);
     }
 
     template <class Visit>
@@ -146,7 +149,7 @@ class Grouper {
         for (std::uint32_t p = 0; p < patches_.size(); ++p) {
             for (const std::uint32_t t : patches_[p].triangles)
                 forNeighbours(t, [&](const EdgeNeighbour& n) {
-                    if (n.smooth && patchOf_[n.triangle] != p && sameMaterial(t, n.triangle))
+                    if (n.smooth && patchOf_[n.triangle] != p && belongTogether(t, n.triangle))
                         smooth_[p].push_back(patchOf_[n.triangle]);
                 });
             std::sort(smooth_[p].begin(), smooth_[p].end());
@@ -189,6 +192,7 @@ class Grouper {
     }
 
     const Scene& scene_;
+    const TexelPieces& pieces_;
     float texelSize_, planeTolerance_;
     MeshAdjacency adjacency_;
     std::vector<Patch> patches_;
@@ -199,8 +203,17 @@ class Grouper {
 
 }  // namespace
 
-std::vector<ChartGroup> groupTriangles(const Scene& scene, float texelSize) {
-    return Grouper(scene, texelSize).run();
+std::vector<ChartGroup> groupTriangles(const Scene& scene, float texelSize,
+                                       const TexelPieces& pieces) {
+    return Grouper(scene, texelSize, pieces).run();
+}
+
+std::vector<std::uint32_t> groupOfTriangles(const std::vector<ChartGroup>& groups,
+                                            std::size_t triangles) {
+    std::vector<std::uint32_t> groupOf(triangles);
+    for (std::uint32_t g = 0; g < groups.size(); ++g)
+        for (const std::uint32_t t : groups[g].triangles) groupOf[t] = g;
+    return groupOf;
 }
 
 }  // namespace vlf

@@ -3,6 +3,7 @@
 // neighbours whose normals stay within a cone, so that the group projects one-to-one on a plane.
 
 #include "vlf/scene/scene.h"
+#include "vlf/unwrap/texel_piece.h"
 
 #include <cstdint>
 #include <vector>
@@ -17,7 +18,13 @@ struct ChartGroup {
 };
 
 /// Partitions the scene's triangles. `texelSize` (metres) is the resolution at which a group must
-/// not overlap itself. Deterministic; groups are ordered by their first triangle.
-std::vector<ChartGroup> groupTriangles(const Scene& scene, float texelSize);
+/// not overlap itself, `pieces` what is kept apart. Deterministic; groups are ordered by their
+/// first triangle.
+std::vector<ChartGroup> groupTriangles(const Scene& scene, float texelSize,
+                                       const TexelPieces& pieces = {});
+
+/// The group of every triangle.
+std::vector<std::uint32_t> groupOfTriangles(const std::vector<ChartGroup>& groups,
+                                            std::size_t triangles);
 
 }  // namespace vlf

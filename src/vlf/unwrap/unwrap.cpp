@@ -10,7 +10,9 @@
 #include "vlf/unwrap/texel_size.h"
 
 #include <algorithm>
+#include <array>
 #include <string>
+#include <utility>
 
 namespace vlf {
 
@@ -21,13 +23,23 @@ constexpr double kMaxTexels = 1 << 28;
 // Charts with more than this share of texels that a wall divides get finer ones, a few times over.
 constexpr double kDividedShare = 0.1;
 constexpr int kRefinements = 2;
+constexpr float kFinestDivided = 0.3f;  // of flat texels: no finer than two halvings
 
-std::vector<std::uint32_t> groupOfTriangles(const std::vector<ChartGroup>& groups,
-                                            std::size_t triangles) {
-    std::vector<std::uint32_t> groupOf(triangles);
-    for (std::uint32_t g = 0; g < groups.size(); ++g)
-        for (const std::uint32_t t : groups[g].triangles) groupOf[t] = g;
-    return groupOf;
+/// The groups there are without pieces: what holds for one holds for all pieces of it.
+struct Surfaces {
+    Surfaces(const Scene& scene, std::vector<ChartGroup> chartGroups)
+        : groups(std::move(chartGroups)), of(groupOfTriangles(groups, scene.triangles.size())) {}
+
+    std::vector<ChartGroup> groups;
+    std::vector<std::uint32_t> of;  // by triangle
+};
+
+std::vector<OpenSides> sidesOf(const std::vector<ChartGroup>& groups, const Surfaces& surfaces,
+                               const std::vector<OpenSides>& sidesOfSurfaces) {
+    std::vector<OpenSides> sides;
+    for (const ChartGroup& group : groups)
+        sides.push_back(sidesOfSurfaces[surfaces.of[group.triangles[0]]]);
+    return sides;
 }
 
 void checkSize(const Scene& scene, float texelSize) {
@@ -138,27 +150,40 @@ void findTexels(const Scene& scene, const RayScene& rays, Unwrap& result, Progre
 }
 
 std::vector<float> texelSizes(const Scene& scene, const std::vector<ChartGroup>& groups,
-                              float flatSize) {
+                              float flatSize, const TexelPieces& pieces) {
     std::vector<float> sizes(groups.size());
     parallelFor(groups.size(), 16, [&](std::size_t g) {
-        sizes[g] = texelSizeOf(scene, groups[g].triangles, flatSize);
+        const std::vector<std::uint32_t>& triangles = groups[g].triangles;
+        const float scale = pieces.empty() ? 1 : pieces[triangles[0]].scale;
+        sizes[g] = scale * texelSizeOf(scene, triangles, flatSize);
     });
     return sizes;
 }
 
-/// Halves the texels of groups of which walls divide many. Whether there are any.
-bool refineDivided(const Unwrap& u, const std::vector<ChartGroup>& groups,
+/// Halves the texels of surfaces of which walls divide many. Whether there are any.
+bool refineDivided(const Unwrap& u, const std::vector<ChartGroup>& groups, const Surfaces& surfaces,
                    std::vector<float>& texelSizes) {
-    std::vector<double> whole(u.charts.size(), 0), divided(u.charts.size(), 0);
-    for (const std::uint32_t c : u.texelChart) ++whole[c];
-    for (const ChartTexel& t : u.divided) ++divided[t.chart];
-    const auto tooMany = [&](std::uint32_t c) {
-        return c != kNoChart && divided[c] > kDividedShare * (whole[c] + divided[c]);
+    struct Count {
+        double whole = 0, divided = 0;
+        bool tooMany() const { return divided > kDividedShare * (whole + divided); }
     };
+    std::vector<std::uint32_t> surfaceOf(u.charts.size());
+    std::vector<std::uint8_t> isBack(u.charts.size(), 0);
+    for (const ChartGroup& group : groups) {
+        const std::uint32_t t = group.triangles[0];
+        const TriangleCharts& charts = u.triangleCharts[t];
+        if (charts.front != kNoChart) surfaceOf[charts.front] = surfaces.of[t];
+        if (charts.back != kNoChart)
+            surfaceOf[charts.back] = surfaces.of[t], isBack[charts.back] = 1;
+    }
+    std::vector<std::array<Count, 2>> counts(surfaces.groups.size());
+    for (const std::uint32_t c : u.texelChart) ++counts[surfaceOf[c]][isBack[c]].whole;
+    for (const ChartTexel& t : u.divided) ++counts[surfaceOf[t.chart]][isBack[t.chart]].divided;
     bool any = false;
     for (std::size_t g = 0; g < groups.size(); ++g) {
-        const TriangleCharts& charts = u.triangleCharts[groups[g].triangles[0]];
-        if (!tooMany(charts.front) && !tooMany(charts.back)) continue;
+        const auto& [front, back] = counts[surfaces.of[groups[g].triangles[0]]];
+        if (!front.tooMany() && !back.tooMany()) continue;
+        if (texelSizes[g] < kFinestDivided * u.texelSize) continue;
         texelSizes[g] *= 0.5f;
         any = true;
     }
@@ -173,13 +198,17 @@ Unwrap unwrap(const Scene& scene, const RayScene& rays, const UnwrapParams& para
     result.texelSize =
         params.texelSize > 0 ? params.texelSize : texelSizeForBudget(scene, params.texelBudget);
     checkSize(scene, result.texelSize);
-    const std::vector<ChartGroup> groups = groupTriangles(scene, result.texelSize);
-    const std::vector<std::uint32_t> groupOf = groupOfTriangles(groups, scene.triangles.size());
+    const Surfaces surfaces(scene, groupTriangles(scene, result.texelSize));
+    const std::vector<ChartGroup> groups =
+        params.pieces.empty() ? surfaces.groups
+                              : groupTriangles(scene, result.texelSize, params.pieces);
     progress.check();
     const std::vector<OpenSides> sides =
-        params.sides ? std::vector<OpenSides>(groups.size(), *params.sides)
-                     : findOpenSides(scene, rays, groups, groupOf, params.seed);
-    std::vector<float> sizes = texelSizes(scene, groups, result.texelSize);
+        params.sides
+            ? std::vector<OpenSides>(groups.size(), *params.sides)
+            : sidesOf(groups, surfaces,
+                      findOpenSides(scene, rays, surfaces.groups, surfaces.of, params.seed));
+    std::vector<float> sizes = texelSizes(scene, groups, result.texelSize, params.pieces);
     for (int refinements = 0;; ++refinements) {
         progress.check();
         layOutCharts(scene, groups, sides, sizes, result);
@@ -187,7 +216,7 @@ Unwrap unwrap(const Scene& scene, const RayScene& rays, const UnwrapParams& para
         result.atlasWidth = size.width;
         result.atlasHeight = size.height;
         findTexels(scene, rays, result, progress);
-        if (refinements == kRefinements || !refineDivided(result, groups, sizes)) break;
+        if (refinements == kRefinements || !refineDivided(result, groups, surfaces, sizes)) break;
     }
     result.seams = findSeams(scene, rays, result);
     return result;

@@ -8,6 +8,7 @@
 #include "vlf/scene/scene.h"
 #include "vlf/trace/ray_scene.h"
 #include "vlf/unwrap/side_exposure.h"
+#include "vlf/unwrap/texel_piece.h"
 #include "vlf/unwrap/texel_points.h"
 
 #include <cstdint>
@@ -64,7 +65,8 @@ struct UnwrapParams {
     double texelBudget = 75000;  ///< about how many texels to spend on the scene
     std::uint64_t seed = 0;
     std::optional<OpenSides> sides =
-        std::nullopt;  ///< that have texels; none: those that light can reach
+        std::nullopt;      ///< that have texels; none: those that light can reach
+    TexelPieces pieces{};  ///< that have texels of another size than the rest
 };
 
 /// Throws InputError if the scene would need more than 2^28 texels, Cancelled.

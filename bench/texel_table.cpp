@@ -1,0 +1,152 @@
+// Even texels against adaptive ones: a table of docs/benchmarks.md.
+//
+//     texel_table SCENE [draft | standard | high][,TEXELS] ...
+//
+// Each is baked with even texels and with adaptive ones of the same budget. The truth is a bake
+// with 16 times the texels of "standard", 8193 lines and more shadow rays; what is shown is held
+// against the mean over each of its texels, but for those that something covers closer than a texel
+// of the bake is wide, into which nobody looks. CPU seconds have the pilot in them and no radiance
+// fields. SCENE is a name known to `vlf scene` or a file.
+
+#include "vlf/base/parallel.h"
+#include "vlf/propagate/bake.h"
+#include "vlf/propagate/error_estimate.h"
+#include "vlf/propagate/fill_atlas.h"
+#include "vlf/propagate/texel_plan.h"
+#include "vlf/scene/generate/generate.h"
+#include "vlf/scene/import/import.h"
+
+#include <cmath>
+#include <cstdio>
+#include <ctime>
+#include <exception>
+#include <string>
+#include <utility>
+#include <vector>
+
+using namespace vlf;
+
+namespace {
+
+struct Solved {
+    Solved(Scene sceneToSolve, BakeParams params)
+        : start(std::clock()),
+          scene(std::move(sceneToSolve)),
+          state(makeState(scene, withPieces(params), progress)) {
+        propagate(state, progress);
+        error = reportError(state, estimateError(state));
+        atlas = fillAtlas(state);
+        seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+    }
+
+    BakeParams& withPieces(BakeParams& params) {
+        params.radianceDirections = params.glossDirections = 0;
+        if (params.adaptiveTexels) params.pieces = planTexels(scene, params, progress);
+        return params;
+    }
+
+    std::clock_t start;
+    Progress progress;
+    Scene scene;
+    BakeState state;
+    ErrorReport error;
+    IrradianceAtlas atlas;
+    double seconds = 0;  // CPU
+};
+
+BakeParams paramsOf(const std::string& text) {
+    const std::size_t comma = text.find(',');
+    BakeParams p = presetParams(text.substr(0, comma));
+    if (comma != std::string::npos) p.texelBudget = std::stod(text.substr(comma + 1));
+    return p;
+}
+
+BakeParams truthParams() {
+    BakeParams p = presetParams("standard");
+    p.texelBudget *= 16;
+    p.directions = 8193;
+    p.cells = 512;
+    p.coarseDirections = 513;
+    p.directSamples = 16;
+    p.seed = 77;
+    return p;
+}
+
+double squared(const Vec3& v) {
+    return glm::dot(v, v);
+}
+
+/// Squares of the error and of the light at a texel of the truth, times its area.
+struct Squares {
+    double error = 0, light = 0;
+};
+
+Squares compare(const Solved& s, const Solved& truth, std::size_t i) {
+    const Unwrap& u = truth.state.unwrap;
+    const Unwrap& shownIn = s.state.unwrap;
+    if (maxComponent(truth.state.reflectance[i]) <= 0) return {};
+    const float lift = 1e-4f * s.state.frame.radius;
+    Vec3 shown(0);
+    float count = 0, covered = 0;
+    for (const SurfacePoint& q : u.points.of(i)) {
+        const bool front = u.triangleCharts[q.triangle].front == u.texelChart[i];
+        const Vec3 p = positionAt(truth.scene, q.triangle, q.barycentric);
+        const Vec3 n = (front ? 1.0f : -1.0f) * geometricNormal(truth.scene, q.triangle);
+        covered += truth.state.rays.occluded(
+            {p + truth.state.rays.epsilon() * n, n, 0, shownIn.texelSize});
+        const Hit hit = s.state.rays.closest({p + lift * n, -n, 0, 2 * lift});
+        if (!hit) continue;
+        const TriangleCharts& charts = shownIn.triangleCharts[hit.triangle];
+        const std::uint32_t c =
+            glm::dot(geometricNormal(s.scene, hit.triangle), n) > 0 ? charts.front : charts.back;
+        if (c == kNoChart) continue;
+        shown += s.atlas.sample(shownIn.charts[c], shownIn.charts[c].texelCoordinates(p));
+        count += 1;
+    }
+    if (count == 0 || covered > 0) return {};
+    const double area = u.texelArea(i);
+    return {area * squared(shown / count - truth.state.irradiance[i]),
+            area * squared(truth.state.irradiance[i])};
+}
+
+void printRow(const char* name, const Solved& s, const Solved& truth) {
+    std::vector<Squares> squares(truth.state.unwrap.texels.size());
+    parallelFor(squares.size(), 256, [&](std::size_t i) { squares[i] = compare(s, truth, i); });
+    Squares sum;
+    for (const Squares& q : squares) sum.error += q.error, sum.light += q.light;
+    std::printf("| %s | %zu | %zu | %.2f | %.2f %% | %.2f %% |\n", name,
+                s.state.unwrap.texels.size(), s.scene.triangles.size(), s.seconds,
+                100 * s.error.interpolated(), 100 * std::sqrt(sum.error / sum.light));
+    std::fflush(stdout);
+}
+
+void run(int argc, char** argv) {
+    const std::string name = argc > 1 ? argv[1] : "cornell";
+    ImportReport report;
+    const Scene scene =
+        name.find('.') != std::string::npos ? importScene({name}, report) : generateScene(name);
+    const Solved truth(scene, truthParams());
+    std::printf("%s: the texels of the truth are off by about %.2f %%\n", name.c_str(),
+                100 * truth.error.ofTexels());
+    std::printf("| bake | texels | triangles | CPU s | between texels: estimated | true |\n");
+    std::printf("| --- | ---: | ---: | ---: | ---: | ---: |\n");
+    for (int i = 2; i < argc; ++i)
+        for (const bool adaptive : {false, true}) {
+            BakeParams p = paramsOf(argv[i]);
+            p.adaptiveTexels = adaptive;
+            const std::string row = std::string(argv[i]) + (adaptive ? ", adaptive" : "");
+            printRow(row.c_str(), Solved(scene, p), truth);
+        }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    try {
+        run(argc, argv);
+        return 0;
+    } catch (const std::exception& e) {
+        std::fprintf(stderr, "%s\n", e.what());
+        return 1;
+    }
+}
