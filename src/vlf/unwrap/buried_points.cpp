@@ -89,11 +89,13 @@ class BurialTest {
 
 }  // namespace
 
-void dropBuriedPoints(const Scene& scene, const RayScene& rays, Unwrap& unwrap) {
+void dropBuriedPoints(const Scene& scene, const RayScene& rays, Unwrap& unwrap,
+                      const Progress& progress) {
     std::vector<std::uint8_t> keep(unwrap.points.points.size());
     std::vector<std::uint8_t> divided(unwrap.texels.size());
     const BurialTest test(scene, rays, unwrap);
     parallelFor(unwrap.texels.size(), 256, [&](std::size_t i) {
+        progress.check();
         const std::uint32_t begin = unwrap.points.first[i], end = unwrap.points.first[i + 1];
         const std::span<std::uint8_t> own = std::span(keep).subspan(begin, end - begin);
         test(i, own);

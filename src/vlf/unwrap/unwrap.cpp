@@ -98,19 +98,21 @@ std::vector<std::vector<std::uint32_t>> trianglesOfCharts(const Unwrap& unwrap) 
 }
 
 /// Lists the covered texels of all charts with their points.
-void coverTexels(const Scene& scene, Unwrap& result) {
+void coverTexels(const Scene& scene, Unwrap& result, const Progress& progress) {
     result.texels.clear();
     result.texelChart.clear();
     result.points = {};
     const auto triangles = trianglesOfCharts(result);
     std::vector<TexelPoints> points(result.charts.size());
     parallelFor(points.size(), 4, [&](std::size_t c) {
+        progress.check();
         points[c] = findTexelPoints(scene, result.charts[c], triangles[c]);
     });
     result.pointArea.resize(points.size());
     result.points.first.push_back(0);
     for (std::uint32_t c = 0; c < points.size(); ++c) {
         double chartArea = 0;
+        progress.check();
         for (const std::uint32_t t : triangles[c]) chartArea += area(scene, t);
         result.pointArea[c] = static_cast<float>(
             chartArea / static_cast<double>(std::max<std::size_t>(1, points[c].points.size())));
@@ -142,9 +144,9 @@ void findProxies(Unwrap& result) {
 }
 
 void findTexels(const Scene& scene, const RayScene& rays, Unwrap& result, Progress& progress) {
-    coverTexels(scene, result);
+    coverTexels(scene, result, progress);
     progress.check();
-    dropBuriedPoints(scene, rays, result);
+    dropBuriedPoints(scene, rays, result, progress);
     progress.check();
     findProxies(result);
 }

@@ -100,7 +100,7 @@ TEST(BuriedPoints, AClosedSideFarAboveBuriesNothing) {
         const std::uint32_t floor = room.unwrap.triangleCharts[4].front;
         for (const std::uint32_t t : {panel, panel + 1})
             room.unwrap.triangleCharts[t].back = kNoChart;
-        dropBuriedPoints(room.scene, RayScene(room.scene), room.unwrap);
+        dropBuriedPoints(room.scene, RayScene(room.scene), room.unwrap, Progress());
         const auto texels =
             std::count(room.unwrap.texelChart.begin(), room.unwrap.texelChart.end(), floor);
         EXPECT_EQ(texels, height > 1 ? 40 * 40 : 40 * 40 - 10 * 10) << height;
