@@ -41,10 +41,33 @@ class Shares {
     float first_, second_;
 };
 
+Vec3 placeOf(std::uint32_t texel, const Scene& scene, const RoomTexels& room) {
+    const auto points = room.unwrap.points.of(room.entryOf[texel]);
+    const SurfacePoint& p = points[points.size() / 2];
+    return positionAt(scene, p.triangle, p.barycentric);
+}
+
+bool passes(const Sphere& sphere, const Vec3& from, const Vec3& way) {
+    const Vec3 toCentre = sphere.centre - from;
+    const float along =
+        std::clamp(glm::dot(toCentre, way) / std::max(glm::dot(way, way), 1e-20f), 0.0f, 1.0f);
+    const Vec3 miss = toCentre - along * way;
+    return glm::dot(miss, miss) < sphere.radius * sphere.radius;
+}
+
 }  // namespace
 
+bool ObjectsBetween::block(std::uint32_t from, std::uint32_t to, const RoomTexels& room) const {
+    constexpr float kEnds = 1e-3f;  // of the way, where an object may touch a texel
+    const Vec3 a = placeOf(from, scene, room), way = placeOf(to, scene, room) - a;
+    const auto near = [&](const Sphere& sphere) { return passes(sphere, a, way); };
+    return std::any_of(spheres.begin(), spheres.end(), near) &&
+           instances.occluded({a, way, kEnds, 1 - kEnds});
+}
+
 void ChangeBounce::send(const RoomChange& change, std::uint32_t g, const BounceRays& rays,
-                        const RoomTexels& room, const Coverage& coverage, float portion) {
+                        const RoomTexels& room, const Coverage& coverage,
+                        const ObjectsBetween& objects, float portion) {
     const TexelGroup& group = room.groups[g];
     const auto launches = rays.of(g);
     Vec3 flux(0);
@@ -55,7 +78,8 @@ void ChangeBounce::send(const RoomChange& change, std::uint32_t g, const BounceR
         const Shares shares(size(flux) / portion, kFewestRays, rays.perGroup());
         for (std::uint32_t i = 0; i < shares.count(); ++i)
             for (const BounceRays::Arrival& arrival : rays.arrivals(launches[i]))
-                arrive(arrival, shares.of(i) * flux, room);
+                if (!objects.block(launches[i].texel, arrival.texel, room))
+                    arrive(arrival, shares.of(i) * flux, room);
         return;
     }
     float all = 0;
@@ -70,7 +94,8 @@ void ChangeBounce::send(const RoomChange& change, std::uint32_t g, const BounceR
     const Shares shares(all / portion, std::min<float>(64, rays.perGroup()), rays.perGroup());
     for (std::uint32_t i = 0; i < shares.count(); ++i)
         for (const BounceRays::Arrival& arrival : rays.arrivals(launches[i]))
-            arrive(arrival, shares.of(i) * sent_[room.placeOf[launches[i].texel]], room);
+            if (!objects.block(launches[i].texel, arrival.texel, room))
+                arrive(arrival, shares.of(i) * sent_[room.placeOf[launches[i].texel]], room);
 }
 
 void ChangeBounce::arrive(const BounceRays::Arrival& arrival, const Vec3& sent,
@@ -136,14 +161,14 @@ void ChangeBounce::clear() {
 }
 
 void ChangeBounce::find(const RoomChange& change, const BounceRays& rays, const RoomTexels& room,
-                        const Coverage& coverage, float roomFlux) {
+                        const Coverage& coverage, const ObjectsBetween& objects, float roomFlux) {
     groups_.resize(room.groups.size());
     blocks_.resize(room.blockArea.size());
     sent_.resize(RoomTexels::kGroupSide * RoomTexels::kGroupSide);
     clear();
     const float portion = std::max(kPortion * roomFlux, 1e-30f);
     for (std::uint32_t g = 0; g < room.groups.size(); ++g)
-        send(change, g, rays, room, coverage, portion);
+        send(change, g, rays, room, coverage, objects, portion);
     collect(room);
     found_ = true;
 }

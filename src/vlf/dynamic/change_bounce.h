@@ -7,8 +7,10 @@
 #include "vlf/dynamic/bounce_rays.h"
 #include "vlf/dynamic/coverage.h"
 #include "vlf/dynamic/room_change.h"
+#include "vlf/trace/ray_instances.h"
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace vlf {
@@ -19,14 +21,23 @@ struct TexelChange {
     Vec3 irradiance;
 };
 
+/// Objects that light may meet on its way from texel to texel.
+struct ObjectsBetween {
+    const Scene& scene;               ///< the room
+    const RayInstances& instances;    ///< the objects
+    std::span<const Sphere> spheres;  ///< around them
+
+    /// Whether any stands between two texels that see each other straight.
+    bool block(std::uint32_t from, std::uint32_t to, const RoomTexels& room) const;
+};
+
 class ChangeBounce {
   public:
     /// Finds what the changes make the texels send to one another, what has bounced once by
     /// `rays`, the rest evenly all over the room. `roomFlux`: all that the room's texels send, W; a
-    /// ray carries a fixed small part of it where there are enough. That objects are in the way is
-    /// left out: it is a small part of what is but a change.
+    /// ray carries a fixed small part of it where there are enough. What meets an object is lost.
     void find(const RoomChange& change, const BounceRays& rays, const RoomTexels& room,
-              const Coverage& coverage, float roomFlux);
+              const Coverage& coverage, const ObjectsBetween& objects, float roomFlux);
 
     /// Adds what was found, the rest only if it is more than `leastAmbient` (luminance, W·m⁻²).
     void addTo(RoomChange& change, float leastAmbient) const;
@@ -36,7 +47,8 @@ class ChangeBounce {
 
   private:
     void send(const RoomChange& change, std::uint32_t group, const BounceRays& rays,
-              const RoomTexels& room, const Coverage& coverage, float portion);
+              const RoomTexels& room, const Coverage& coverage, const ObjectsBetween& objects,
+              float portion);
     void arrive(const BounceRays::Arrival& arrival, const Vec3& flux, const RoomTexels& room);
     void spread(const BounceRays::Arrival& arrival, int reach, const Vec3& flux,
                 const RoomTexels& room);

@@ -1,6 +1,7 @@
 #include "vlf/dynamic/change_bounce.h"
 #include "lit_room.h"
 #include "support/analytic_scenes.h"
+#include "vlf/scene/generate/primitives.h"
 
 #include <algorithm>
 #include <cmath>
@@ -31,9 +32,14 @@ class BouncingChange : public testing::Test {
     Coverage coverage{room};
 
     /// Irradiance that bounces, by entry of the texels.
-    std::vector<float> bounced(const RoomChange& change) {
+    std::vector<float> bounced(const RoomChange& change,
+                               std::span<const RayInstance> objects = {}) {
+        RayInstances instances;
+        instances.place(objects);
+        const std::vector<Sphere> spheres(objects.size(), Sphere{Vec3(0.5f), 1});
         ChangeBounce bounce;
-        bounce.find(change, raysOf(lit), room, coverage, room.totalArea);
+        bounce.find(change, raysOf(lit), room, coverage, {lit.scene, instances, spheres},
+                    room.totalArea);
         RoomChange result(room);
         bounce.addTo(result, 0);
         IrradianceAtlas own = lit.field.atlas, light = own;
@@ -100,6 +106,20 @@ TEST_F(BouncingChange, FallsOnWhatTheSpotSees) {
         if (p.y < 0.01f) floor = std::max(floor, values[i]);
     }
     EXPECT_GT(ceiling, 1.5f * floor);  // which gets the ambient rest alone
+}
+
+TEST_F(BouncingChange, IsLostOnAnObjectInItsWay) {
+    const RayScene cube(makePrimitive("cube", {}));
+    Pose pose;
+    pose.translation = Vec3(0.5f);
+    pose.scale = 0.7f;
+    const RayInstance between{&cube, pose};
+    const std::vector<float> values = bounced(spot(1)), hidden = bounced(spot(1), {&between, 1});
+    double before = 0, after = 0;
+    for (std::size_t i = 0; i < values.size(); ++i)
+        if (texelReceiver(lit.scene, room.unwrap, i).centre.y > 0.99f)
+            before += values[i], after += hidden[i];
+    EXPECT_LT(after, 0.4 * before);
 }
 
 }  // namespace
