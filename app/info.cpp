@@ -66,18 +66,27 @@ ChunkInfo totalOf(const FieldFileInfo& info) {
 
 Json toJson(const StoredRadiance& r, const FieldFileInfo& info) {
     const RadianceCounts& c = r.counts;
-    return {{"lines", c.lines},           {"cells", c.cells},
-            {"tileSize", c.tileSize},     {"maxDistance", c.maxDistance},
-            {"tileRows", c.tileRows},     {"elements", c.elements},
-            {"filledElements", c.filled}, {"bytesPerElement", bytesPer(info, r.chunk, c.filled)}};
+    return {{"lines", c.lines},
+            {"cells", c.cells},
+            {"tileSize", c.tileSize},
+            {"maxDistance", c.maxDistance},
+            {"tileRows", c.tileRows},
+            {"elements", c.elements},
+            {"filledElements", c.filled},
+            {"bytesPerElement", bytesPer(info, r.chunk, c.filled)}};
 }
 
 Json toJson(const FieldCounts& c) {
-    return {{"triangles", c.triangles},    {"vertices", c.vertices},
-            {"meshes", c.meshes},          {"materials", c.materials},
-            {"textures", c.textures},      {"texturePixels", c.texturePixels},
-            {"cameras", c.cameras},        {"charts", c.charts},
-            {"texels", c.texels()},        {"atlasWidth", c.atlasWidth},
+    return {{"triangles", c.triangles},
+            {"vertices", c.vertices},
+            {"meshes", c.meshes},
+            {"materials", c.materials},
+            {"textures", c.textures},
+            {"texturePixels", c.texturePixels},
+            {"cameras", c.cameras},
+            {"charts", c.charts},
+            {"texels", c.texels()},
+            {"atlasWidth", c.atlasWidth},
             {"atlasHeight", c.atlasHeight}};
 }
 
@@ -247,9 +256,9 @@ void printLight(const FieldFileInfo& info) {
         printLine(title, fmt::format("{} lines x {} x {} cells, tiles of {} x {}", radiance.lines,
                                      radiance.cells, radiance.cells, radiance.tileSize,
                                      radiance.tileSize));
-        printLine("elements",
-                  fmt::format("{} filled of {}, {:.2f} bytes each on disk", radiance.filled,
-                              radiance.elements, bytesPer(info, chunk, radiance.filled)));
+        printLine("elements", fmt::format("{} filled of {}, {:.2f} bytes each on disk",
+                                          radiance.filled, radiance.elements,
+                                          bytesPer(info, chunk, radiance.filled)));
         printLine("longest distance", fmt::format("{:.4g} m", radiance.maxDistance));
     }
 }
