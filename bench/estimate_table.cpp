@@ -7,11 +7,10 @@
 // last column of its line tells. Texels are those of "standard". SCENE is a name known to `vlf
 // scene` or a file.
 
+#include "scene_named.h"
 #include "vlf/base/error.h"
 #include "vlf/propagate/bake.h"
 #include "vlf/propagate/error_estimate.h"
-#include "vlf/scene/generate/generate.h"
-#include "vlf/scene/import/import.h"
 
 #include <cmath>
 #include <cstdio>
@@ -88,9 +87,7 @@ void compare(const std::string& name, const Solved& s, const Solved& truth) {
 
 void run(int argc, char** argv) {
     const std::string name = argc > 1 ? argv[1] : "cornell";
-    ImportReport report;
-    const Scene scene =
-        name.find('.') != std::string::npos ? importScene({name}, report) : generateScene(name);
+    const Scene scene = sceneNamed(name);
     const Solved truth(scene, truthParams());
     std::printf("%s: the truth's own error is about %.2f %%\n", name.c_str(),
                 100 * truth.error.ofTexels());

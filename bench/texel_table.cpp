@@ -8,13 +8,12 @@
 // of the bake is wide, into which nobody looks. CPU seconds have the pilot in them and no radiance
 // fields. SCENE is a name known to `vlf scene` or a file.
 
+#include "scene_named.h"
 #include "vlf/base/parallel.h"
 #include "vlf/propagate/bake.h"
 #include "vlf/propagate/error_estimate.h"
 #include "vlf/propagate/fill_atlas.h"
 #include "vlf/propagate/texel_plan.h"
-#include "vlf/scene/generate/generate.h"
-#include "vlf/scene/import/import.h"
 
 #include <cmath>
 #include <cstdio>
@@ -122,9 +121,7 @@ void printRow(const char* name, const Solved& s, const Solved& truth) {
 
 void run(int argc, char** argv) {
     const std::string name = argc > 1 ? argv[1] : "cornell";
-    ImportReport report;
-    const Scene scene =
-        name.find('.') != std::string::npos ? importScene({name}, report) : generateScene(name);
+    const Scene scene = sceneNamed(name);
     const Solved truth(scene, truthParams());
     std::printf("%s: the texels of the truth are off by about %.2f %%\n", name.c_str(),
                 100 * truth.error.ofTexels());

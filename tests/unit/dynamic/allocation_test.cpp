@@ -2,32 +2,12 @@
 // before.
 
 #include "baked_room.h"
+#include "support/count_allocations.h"
 
 #include <algorithm>
-#include <atomic>
-#include <cstdlib>
 #include <limits>
-#include <new>
 
 #include <gtest/gtest.h>
-
-namespace {
-std::atomic<bool> counting{false};
-std::atomic<int> allocations{0};
-}  // namespace
-
-// Not inlined, or the compiler sees what new and delete are made of and calls them mismatched.
-[[gnu::noinline]] void* operator new(std::size_t size) {
-    if (counting) ++allocations;
-    if (void* p = std::malloc(size)) return p;
-    throw std::bad_alloc();
-}
-[[gnu::noinline]] void operator delete(void* p) noexcept {
-    std::free(p);
-}
-[[gnu::noinline]] void operator delete(void* p, std::size_t) noexcept {
-    std::free(p);
-}
 
 namespace vlf::test {
 namespace {
@@ -43,10 +23,10 @@ int allocationsToMove(DynamicRoom& room) {
     for (int i = 0; i < 12; ++i) {
         pose.translation.x = i % 2 == 0 ? 1.1f : 1.0f;
         allocations = 0;
-        counting = true;
+        countsAllocations = true;
         room.setPose(0, pose);
         room.update();
-        counting = false;
+        countsAllocations = false;
         if (i >= 4) fewest = std::min(fewest, allocations.load());
     }
     return fewest;

@@ -310,14 +310,19 @@ TEST(RadianceField, DoesNotDependOnTheNumberOfThreads) {
               0);
 }
 
-TEST(RadianceField, InAFileIsTheSame) {
-    const Scene scene = test::mirrorBox();
+BakeParams smallBake() {
     BakeParams params = presetParams("draft");
     params.texelBudget = 500;
     params.maxBounces = 1;
     params.cells = 64;
     params.radianceDirections = 33;
     params.radianceCells = 64;
+    return params;
+}
+
+TEST(RadianceField, InAFileIsTheSame) {
+    const Scene scene = test::mirrorBox();
+    const BakeParams params = smallBake();
     Progress progress;
     const LightField inMemory = bake(scene, params, progress);
     const LightField inFile = bake(scene, params, progress, nullptr, unobserved,
@@ -342,12 +347,7 @@ TEST(RadianceField, RefusesParametersItCannotUse) {
 
 TEST(RadianceField, IsPartOfABakeOfARoomWithMirrors) {
     const Scene scene = test::mirrorBox();
-    BakeParams params = presetParams("draft");
-    params.texelBudget = 500;
-    params.maxBounces = 1;
-    params.cells = 64;
-    params.radianceDirections = 33;
-    params.radianceCells = 64;
+    BakeParams params = smallBake();
     Progress progress;
     BakeReport report;
     const LightField field = bake(scene, params, progress, &report);

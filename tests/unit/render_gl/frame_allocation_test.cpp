@@ -1,30 +1,10 @@
 // Nothing allocates per frame: neither a still view nor an object that moves where it has been.
 
 #include "dynamic_example.h"
+#include "support/count_allocations.h"
 
 #include <algorithm>
-#include <atomic>
-#include <cstdlib>
 #include <limits>
-#include <new>
-
-namespace {
-thread_local bool counting = false;  // the driver's threads do as they like
-int allocations = 0;
-}  // namespace
-
-// Not inlined, or the compiler sees what new and delete are made of and calls them mismatched.
-[[gnu::noinline]] void* operator new(std::size_t size) {
-    if (counting) ++allocations;
-    if (void* p = std::malloc(size)) return p;
-    throw std::bad_alloc();
-}
-[[gnu::noinline]] void operator delete(void* p) noexcept {
-    std::free(p);
-}
-[[gnu::noinline]] void operator delete(void* p, std::size_t) noexcept {
-    std::free(p);
-}
 
 namespace vlf::test {
 namespace {
@@ -39,16 +19,16 @@ int allocationsOf(const Work& work) {
     for (int i = 0; i < 8; ++i) {
         allocations = 0;
         work(i);
-        if (i >= 3) fewest = std::min(fewest, allocations);
+        if (i >= 3) fewest = std::min(fewest, allocations.load());
     }
     return fewest;
 }
 
 template <class Work>
-void counted(const Work& work) {
-    counting = true;
+void counted(const Work& work) {  // the driver's threads do as they like
+    countsOwnAllocations = true;
     work();
-    counting = false;
+    countsOwnAllocations = false;
 }
 
 class FrameAllocation : public OpenGl {
@@ -75,7 +55,8 @@ TEST_F(FrameAllocation, OfARoomIsNone) {
     const Target target(160, 120);
     Renderer renderer(room_.scene, room_.field);
     for (const DisplayMode mode : kModes)
-        EXPECT_EQ(allocationsOf([&](int) { draw(renderer, target, mode); }), 0) << static_cast<int>(mode);
+        EXPECT_EQ(allocationsOf([&](int) { draw(renderer, target, mode); }), 0)
+            << static_cast<int>(mode);
 }
 
 TEST_F(FrameAllocation, OfAnObjectThatMovesIsNone) {
