@@ -9,8 +9,8 @@ rooms.json is a list of rooms and of a camera in each:
       "reference": ["--environment", "sky.hdr"]}, ...]
 
 "fov" and "reference", options of both `vlf bake` and `vlf reference`, may be left out. Files are
-found relative to rooms.json. Bakes every room, renders it in mode raytraced, path-traces it, and
-prints the FLIP; and about what of it is noise of the truth: half the FLIP of a second path-traced
+found in the folder --scenes, or relative to rooms.json. Bakes every room, renders it in mode
+raytraced, path-traces it, and prints the FLIP; and about what of it is noise of the truth: half the FLIP of a second path-traced
 picture of a quarter of the paths. Pictures are left in --pictures: NAME-PRESET.png beside
 NAME-truth.png.
 """
@@ -69,6 +69,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("build", type=pathlib.Path, help="folder of the build")
     parser.add_argument("rooms", type=pathlib.Path, help="list of rooms (JSON)")
+    parser.add_argument("--scenes", type=pathlib.Path, help="folder of the rooms' files")
     parser.add_argument("--only", nargs="+", help="names of rooms")
     parser.add_argument("--presets", nargs="+", default=["draft", "standard"])
     parser.add_argument("--spp", type=int, default=1024)
@@ -85,7 +86,7 @@ def main():
         for room in json.loads(args.rooms.read_text()):
             if args.only and room["name"] not in args.only:
                 continue
-            files = [args.rooms.parent / f for f in room["files"]]
+            files = [(args.scenes or args.rooms.parent) / f for f in room["files"]]
             truth = path_trace(args, room, files, args.spp, 1, folder)
             other = path_trace(args, room, files, args.spp // 4, 2, folder)
             noise = compare(args.build / "app/vlf", other, truth, folder)["flip"] / 2
