@@ -15,6 +15,8 @@ constexpr float kFewestRays = 16;    // of a group
 constexpr float kFar = 5;
 constexpr int kSquare = 2;
 constexpr float kSpread = 0.6f;
+/// A ray of a group that changes evenly may stand for 4 of its texels: too much for one other.
+constexpr int kEvenReach = 1;
 
 float size(const Vec3& flux) {
     return maxComponent(glm::abs(flux));  // a ray of any colour carries no more than another
@@ -79,7 +81,7 @@ void ChangeBounce::send(const RoomChange& change, std::uint32_t g, const BounceR
         for (std::uint32_t i = 0; i < shares.count(); ++i)
             for (const BounceRays::Arrival& arrival : rays.arrivals(launches[i]))
                 if (!objects.block(launches[i].texel, arrival.texel, room))
-                    arrive(arrival, shares.of(i) * flux, room);
+                    arrive(arrival, kEvenReach, shares.of(i) * flux, room);
         return;
     }
     float all = 0;
@@ -95,10 +97,10 @@ void ChangeBounce::send(const RoomChange& change, std::uint32_t g, const BounceR
     for (std::uint32_t i = 0; i < shares.count(); ++i)
         for (const BounceRays::Arrival& arrival : rays.arrivals(launches[i]))
             if (!objects.block(launches[i].texel, arrival.texel, room))
-                arrive(arrival, shares.of(i) * sent_[room.placeOf[launches[i].texel]], room);
+                arrive(arrival, 0, shares.of(i) * sent_[room.placeOf[launches[i].texel]], room);
 }
 
-void ChangeBounce::arrive(const BounceRays::Arrival& arrival, const Vec3& sent,
+void ChangeBounce::arrive(const BounceRays::Arrival& arrival, int leastReach, const Vec3& sent,
                           const RoomTexels& room) {
     if (room.hidden[arrival.texel]) return;
     const Vec3 flux = arrival.throughput * sent;
@@ -114,7 +116,7 @@ void ChangeBounce::arrive(const BounceRays::Arrival& arrival, const Vec3& sent,
     if (reach > kSquare)
         blocks_[block] += flux;
     else
-        spread(arrival, reach, flux, room);
+        spread(arrival, std::max(reach, leastReach), flux, room);
 }
 
 /// Over a square of texels around the one it has come to that is as wide as rays lie apart there.

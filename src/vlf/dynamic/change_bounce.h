@@ -49,7 +49,8 @@ class ChangeBounce {
     void send(const RoomChange& change, std::uint32_t group, const BounceRays& rays,
               const RoomTexels& room, const Coverage& coverage, const ObjectsBetween& objects,
               float portion);
-    void arrive(const BounceRays::Arrival& arrival, const Vec3& flux, const RoomTexels& room);
+    void arrive(const BounceRays::Arrival& arrival, int leastReach, const Vec3& flux,
+                const RoomTexels& room);
     void spread(const BounceRays::Arrival& arrival, int reach, const Vec3& flux,
                 const RoomTexels& room);
     void collect(const RoomTexels& room);

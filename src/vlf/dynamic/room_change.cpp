@@ -89,8 +89,9 @@ void RoomChange::findCorners() {
             for (std::size_t c = first; c < end; ++c) {
                 const TexelLattice::Corner& corner = lattice.corners[c];
                 Vec3 sum(0);
-                for (int k = 0; k < corner.count; ++k) sum += cells[corner.cells[k]];
-                corners[c] = sum / static_cast<float>(corner.count);
+                for (int k = 0; k < corner.count; ++k)
+                    sum += corner.shares[k] * cells[corner.cells[k]];
+                corners[c] = sum;
             }
         });
     };

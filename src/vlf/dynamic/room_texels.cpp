@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <map>
+#include <span>
 #include <tuple>
 #include <utility>
 
@@ -15,9 +16,19 @@ namespace {
 
 using CellPlace = std::tuple<std::uint32_t, int, int>;  ///< chart, place along u and v
 
-TexelLattice makeLattice(const std::map<CellPlace, std::uint32_t>& cells, std::size_t count) {
+/// Alike where none has any.
+void shareByArea(std::span<const float> areas, TexelLattice::Corner& corner) {
+    float sum = 0;
+    for (int k = 0; k < corner.count; ++k) sum += areas[corner.cells[k]];
+    for (int k = 0; k < corner.count; ++k)
+        corner.shares[k] =
+            sum > 0 ? areas[corner.cells[k]] / sum : 1.0f / static_cast<float>(corner.count);
+}
+
+TexelLattice makeLattice(const std::map<CellPlace, std::uint32_t>& cells,
+                         std::span<const float> areas) {
     TexelLattice lattice;
-    lattice.cornersOf.resize(count);
+    lattice.cornersOf.resize(areas.size());
     std::map<CellPlace, std::uint32_t> corners;
     for (const auto& [place, cell] : cells) {
         const auto& [chart, u, v] = place;
@@ -25,12 +36,13 @@ TexelLattice makeLattice(const std::map<CellPlace, std::uint32_t>& cells, std::s
             const auto number = static_cast<std::uint32_t>(lattice.corners.size());
             const auto [found, isNew] =
                 corners.try_emplace(CellPlace(chart, u + (k & 1), v + (k >> 1)), number);
-            if (isNew) lattice.corners.push_back({{}, 0});
+            if (isNew) lattice.corners.emplace_back();
             TexelLattice::Corner& corner = lattice.corners[found->second];
             corner.cells[corner.count++] = cell;
             lattice.cornersOf[cell][k] = found->second;
         }
     }
+    for (TexelLattice::Corner& corner : lattice.corners) shareByArea(areas, corner);
     return lattice;
 }
 
@@ -92,8 +104,10 @@ void groupTexels(const Scene& scene, RoomTexels& room) {
         groups.try_emplace(CellPlace(c, x / kSide, y / kSide), room.groupOf[texel]);
         blocks.try_emplace(CellPlace(c, x / kHalf, y / kHalf), room.blockOf[texel]);
     }
-    room.groupLattice = makeLattice(groups, room.groups.size());
-    room.blockLattice = makeLattice(blocks, room.blockArea.size());
+    std::vector<float> groupAreas;
+    for (const TexelGroup& group : room.groups) groupAreas.push_back(group.area);
+    room.groupLattice = makeLattice(groups, groupAreas);
+    room.blockLattice = makeLattice(blocks, room.blockArea);
 }
 
 /// Something is close above one of their points.

@@ -17,10 +17,12 @@ inline constexpr std::uint32_t kNoTexel = 0xffffffffu;
 
 /// Where squares (cells) of a chart's texels meet.
 struct TexelLattice {
-    /// The one to four cells about a corner.
+    /// The one to four cells about a corner, and their shares in what it has, by their areas: few
+    /// texels at the edge of a chart know it but roughly.
     struct Corner {
-        std::array<std::uint32_t, 4> cells;
-        int count;
+        std::array<std::uint32_t, 4> cells{};
+        std::array<float, 4> shares{};
+        int count = 0;
     };
     std::vector<Corner> corners;
     std::vector<std::array<std::uint32_t, 4>> cornersOf;  ///< by cell; bits of the place: the far

@@ -97,6 +97,15 @@ TEST_F(BouncingChange, GrowsAsEvenlyAsTheChange) {
     }
 }
 
+TEST_F(BouncingChange, OfAGroupGivesNoTexelMoreThanTheGroupSends) {
+    for (std::uint32_t g = 0; g < room.groups.size(); ++g) {
+        RoomChange change(room);
+        change.addToGroup(g, Vec3(0.01f));
+        const std::vector<float> values = bounced(change);
+        EXPECT_LT(*std::ranges::max_element(values), 0.01f * kReflectance) << g;
+    }
+}
+
 TEST_F(BouncingChange, FallsOnWhatTheSpotSees) {
     const std::vector<float> values = bounced(spot(1));
     float ceiling = 0, floor = 0;

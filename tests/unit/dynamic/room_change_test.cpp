@@ -2,6 +2,7 @@
 #include "lit_room.h"
 #include "support/analytic_scenes.h"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -98,6 +99,20 @@ TEST_F(ChangedRoom, AddsUpChangesOfTexelsBlocksGroupsAndAll) {
     change.clear();
     apply();
     EXPECT_EQ(light.irradiance, own.irradiance);
+}
+
+TEST_F(ChangedRoom, IsSwayedLittleByTheFewTexelsOfAGroupAtAnEdge) {
+    for (std::uint32_t g = 0; g < texels.groups.size(); ++g) {
+        const TexelGroup& group = texels.groups[g];
+        if (group.count > 16) continue;
+        change.clear();
+        change.addToGroup(g, Vec3(1));
+        apply();
+        float most = 0;
+        for (const std::uint32_t t : texels.unwrap.texels)
+            most = std::max(most, light.irradiance[t].x - 2);
+        EXPECT_LT(most, 0.5f) << group.count;
+    }
 }
 
 TEST_F(ChangedRoom, HasNoLightBelowZero) {
