@@ -112,11 +112,7 @@ class FaceMaker {
 
   private:
     void findFans() {
-        std::vector<std::vector<std::uint32_t>> triangles(unwrap_.charts.size());
-        for (std::uint32_t t = 0; t < scene_.triangles.size(); ++t)
-            for (const std::uint32_t c :
-                 {unwrap_.triangleCharts[t].front, unwrap_.triangleCharts[t].back})
-                if (c != kNoChart) triangles[c].push_back(t);
+        const auto triangles = trianglesOfCharts(unwrap_);
         parallelFor(triangles.size(), 16, [&](std::size_t c) {
             if (triangles[c].empty()) return;
             fans_[c].triangles =

@@ -1,6 +1,6 @@
 #pragma once
-// The scene's surfaces as the bundle sweeps read them: one record per triangle side that has
-// texels, in structure-of-arrays order for SIMD.
+// The scene's surfaces as the bundle sweeps read them: one record per triangle side that has texels,
+// or per triangle of a fan where a flat chart is convex, in structure-of-arrays order for SIMD.
 
 #include "vlf/field/parallel_subfield.h"
 #include "vlf/scene/scene.h"

@@ -88,15 +88,6 @@ void appendTexels(std::uint32_t c, const TexelPoints& points, Unwrap& result) {
     }
 }
 
-std::vector<std::vector<std::uint32_t>> trianglesOfCharts(const Unwrap& unwrap) {
-    std::vector<std::vector<std::uint32_t>> triangles(unwrap.charts.size());
-    for (std::uint32_t t = 0; t < unwrap.triangleCharts.size(); ++t)
-        for (const std::uint32_t c :
-             {unwrap.triangleCharts[t].front, unwrap.triangleCharts[t].back})
-            if (c != kNoChart) triangles[c].push_back(t);
-    return triangles;
-}
-
 /// Lists the covered texels of all charts with their points.
 void coverTexels(const Scene& scene, Unwrap& result, const Progress& progress) {
     result.texels.clear();
@@ -193,6 +184,15 @@ bool refineDivided(const Unwrap& u, const std::vector<ChartGroup>& groups, const
 }
 
 }  // namespace
+
+std::vector<std::vector<std::uint32_t>> trianglesOfCharts(const Unwrap& unwrap) {
+    std::vector<std::vector<std::uint32_t>> triangles(unwrap.charts.size());
+    for (std::uint32_t t = 0; t < unwrap.triangleCharts.size(); ++t)
+        for (const std::uint32_t c :
+             {unwrap.triangleCharts[t].front, unwrap.triangleCharts[t].back})
+            if (c != kNoChart) triangles[c].push_back(t);
+    return triangles;
+}
 
 Unwrap unwrap(const Scene& scene, const RayScene& rays, const UnwrapParams& params,
               Progress& progress) {

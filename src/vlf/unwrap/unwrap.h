@@ -60,6 +60,9 @@ struct Unwrap {
     std::size_t atlasSize() const { return static_cast<std::size_t>(atlasWidth) * atlasHeight; }
 };
 
+/// The triangles of which each chart shows a side.
+std::vector<std::vector<std::uint32_t>> trianglesOfCharts(const Unwrap& unwrap);
+
 struct UnwrapParams {
     float texelSize = 0;         ///< metres, of flat surfaces; 0: from the budget
     double texelBudget = 75000;  ///< about how many texels to spend on the scene

@@ -104,6 +104,26 @@ TEST(ObjectStill, MirrorsShowObjectsAtTheRightPixelsInBothModes) {
                   1e-3f);
 }
 
+TEST(ObjectStill, RoughMirrorsThatAreTracedShowObjects) {
+    Scene scene = mirrorBox();
+    for (Material& material : scene.materials)
+        if (material.isSpecular()) material.roughness = 0.05f;
+    const BakedScene perfect = bakedCoarsely(mirrorBox()), rough = bakedCoarsely(scene);
+    const auto picture = [](const BakedScene& baked, const Vec3& glow) {
+        const DynamicObject cube =
+            flatObject("cube", plain(Vec3(0), Vec3(0), glow), {0.4f, 0.15f, 0.2f}, 0.2f);
+        return ObjectRoom(baked, {cube}).picture(80, 60);
+    };
+    const auto greenOf = [&](const Vec3& glow) {
+        double sum = 0;
+        for (const Vec3& p : picture(rough, glow).pixels) sum += p.g;
+        return sum;
+    };
+    const double expected =
+        0.9 * kGlow.g * static_cast<double>(glowingPixels(picture(perfect, kGlow)));
+    EXPECT_NEAR(greenOf(kGlow) - greenOf(Vec3(0)), expected, 0.1 * expected);
+}
+
 TEST(ObjectStill, MirrorsDoNotShowWhatTheRoomHides) {
     Scene scene = mirrorBox();
     SceneBuilder screen;

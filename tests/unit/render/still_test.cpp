@@ -135,6 +135,46 @@ TEST(Still, MirrorShowsWhatTheMirroredCameraSees) {
     EXPECT_LE(different, 10) << "of " << lit << " lit pixels, at the lamps' edges";
 }
 
+glm::dvec3 meanOf(const Image& image) {
+    glm::dvec3 sum(0);
+    for (const Vec3& p : image.pixels) sum += glm::dvec3(p);
+    return sum / static_cast<double>(image.pixels.size());
+}
+
+/// A metre's cube with a rough floor, half of it mirror, below a small lamp and a bulb.
+Scene roughFloor(float roughness) {
+    SceneBuilder b;
+    b.box(Vec3(0), Vec3(1), true, b.material("wall", {0.5f, 0.4f, 0.3f}));
+    b.quad({0.4f, 0.9f, 0.3f}, {0.2f, 0, 0}, {0, 0, 0.2f}, b.material("lamp", Vec3(0), Vec3(20)));
+    const std::uint32_t floor = b.material("floor", Vec3(0.2f), Vec3(0), {0.6f, 0.5f, 0.4f});
+    b.scene().materials[floor].roughness = roughness;
+    b.quad({0, 0.1f, 0}, {0, 0, 1}, {1, 0, 0}, floor);
+    PunctualLight bulb;
+    bulb.position = {0.8f, 0.8f, 0.2f};
+    bulb.intensity = Vec3(0.05f);
+    b.scene().lights.push_back(bulb);
+    b.camera("front", {0.5f, 0.5f, 0.95f}, {0.5f, 0.1f, 0.3f}, 60);
+    return b.scene();
+}
+
+TEST(Still, RoughMirrorsThatAreTracedReflectLampsAndRoom) {
+    for (const float roughness : {0.02f, 0.15f, 0.5f}) {
+        const BakedScene room = baked(roughFloor(roughness));
+        const glm::dvec3 seen = meanOf(render(room, 32, 24));
+        const MeanWithError truth = pictureMean(trace(room.scene, 32, 24, 2048));
+        EXPECT_LT(relativeStandardError(truth), 0.003);
+        for (int c = 0; c < 3; ++c)
+            EXPECT_NEAR(seen[c] / truth.mean[c], 1, 0.01) << "roughness " << roughness;
+    }
+}
+
+TEST(Still, TracedRoughMirrorsDoNotDependOnTheNumberOfThreads) {
+    const BakedScene room = baked(roughFloor(0.15f));
+    const Image all = render(room, 40, 30);
+    const ThreadLimit one(1);
+    EXPECT_EQ(render(room, 40, 30).pixels, all.pixels);
+}
+
 TEST(Still, MixtureAddsDiffuseAndMirroredLight) {
     SceneBuilder b = lampsToMirror();
     const Vec3 diffuse(0.2f, 0.3f, 0.1f), mirror(0.5f, 0.25f, 0.75f), irradiance(1, 2, 3);

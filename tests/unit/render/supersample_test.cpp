@@ -12,7 +12,7 @@ const Camera kCamera{"test", Vec3(0), {0, 0, -1}, {0, 1, 0}, 90};
 struct Edge {
     float slope, offset;
 
-    std::uint64_t operator()(std::span<const Ray> rays, std::span<Vec3> colors) const {
+    std::uint64_t operator()(std::span<const Ray> rays, int, std::span<Vec3> colors) const {
         for (std::size_t i = 0; i < rays.size(); ++i) {
             const Vec3 p = rays[i].direction / -rays[i].direction.z;
             colors[i] = Vec3(p.x > slope * p.y + offset ? 1.0f : 0.0f);

@@ -56,9 +56,14 @@ TEST_F(OpenGl, LooksRoughMirrorsUpAsTheCpuDoes) {
         const StillParams params = stillOf(room.camera("front"), lookup);
         EXPECT_LT(flipAgainstCpu(room, params), 0.01);
     }
+}
+
+// Where the CPU traces them.
+TEST_F(OpenGl, LooksRoughMirrorsUpWherePerfectOnesAreTraced) {
+    const BakedExample room = smallRoom("gloss");
     StillParams traced = stillOf(room.camera("front"));
     traced.mode = DisplayMode::raytraced;
-    EXPECT_LT(flipAgainstCpu(room, traced), 0.01);
+    EXPECT_LT(flipAgainstCpu(room, traced), 0.04);
 }
 
 // Weak rays, which the CPU follows behind the first glass, the shader leaves out: those within the

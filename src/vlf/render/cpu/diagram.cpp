@@ -28,13 +28,15 @@ class DimmedRoom {
         std::uint64_t ignored = 0;
         const Image preview = supersample(
             CameraRays(camera, w, h), w, h, 1,
-            [&](std::span<const Ray> r, std::span<Vec3> seen) { return shader.radiance(r, seen); },
+            [&](std::span<const Ray> r, int, std::span<Vec3> seen) {
+                return shader.radiance(r, seen);
+            },
             progress, ignored);
         gain_ = std::exp2(autoExposure(preview));
     }
 
-    std::uint64_t shade(std::span<const Ray> rays, std::span<Vec3> colors) const {
-        const std::uint64_t traced = shader_.radiance(rays, colors);
+    std::uint64_t shade(std::span<const Ray> rays, int perPixel, std::span<Vec3> colors) const {
+        const std::uint64_t traced = shader_.radiance(rays, colors, perPixel);
         for (Vec3& c : colors) c = kDimmed * toneMap(gain_ * c, ToneCurve::filmic);
         return traced;
     }
@@ -58,8 +60,8 @@ Image drawDirections(const DimmedRoom& room, const DirectionSet& set, const Came
                      int width, int height, int antialias, Progress& progress,
                      std::uint64_t& traced) {
     const Sphere sphere = ballBefore(camera, width, height, 1);
-    const auto shade = [&](std::span<const Ray> rays, std::span<Vec3> colors) {
-        const std::uint64_t count = room.shade(rays, colors);
+    const auto shade = [&](std::span<const Ray> rays, int perPixel, std::span<Vec3> colors) {
+        const std::uint64_t count = room.shade(rays, perPixel, colors);
         for (std::size_t i = 0; i < rays.size(); ++i)
             if (const std::optional<Vec3> d = meet(sphere, rays[i]))
                 colors[i] =
@@ -101,8 +103,8 @@ Image drawChart(const Scene& scene, const RayScene& rays, const LightField& fiel
                 const DynamicRoom* objects) {
     const Chart& chart = field.charts[selected];
     const float brightest = brightestTexel(field.atlas, chart);
-    const auto shade = [&](std::span<const Ray> r, std::span<Vec3> colors) {
-        const std::uint64_t count = room.shade(r, colors);
+    const auto shade = [&](std::span<const Ray> r, int perPixel, std::span<Vec3> colors) {
+        const std::uint64_t count = room.shade(r, perPixel, colors);
         std::vector<Hit> hits(r.size());
         rays.closest(r, hits);
         for (std::size_t i = 0; i < hits.size(); ++i) {

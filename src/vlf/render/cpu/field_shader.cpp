@@ -1,9 +1,12 @@
 #include "vlf/render/cpu/field_shader.h"
 
 #include "vlf/base/error.h"
+#include "vlf/math/random.h"
 #include "vlf/render/cpu/object_surface.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <limits>
 #include <utility>
 
@@ -15,6 +18,9 @@ namespace {
 constexpr int kMaxReflections = 16;
 constexpr float kMinThroughput = 1e-4f;
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+/// Of the lobe of a rough mirror, and towards lamps, for each ray of the camera that meets it.
+constexpr int kLobeRays = 8, kLampRays = 8;
 
 /// Of unit or other `direction`.
 GlassSplit splitAt(const Surface& surface, const Material& glass, const Vec3& direction) {
@@ -28,6 +34,36 @@ GlassSplit splitAt(const Surface& surface, const Material& glass, const Vec3& di
 struct FieldShader::Path {
     std::size_t ray;  ///< of the camera
     Vec3 throughput;
+    float density = kCertain;  ///< with which a lobe drew the ray
+    float straight = 0;        ///< metres before the ray, through panes
+    bool spread = false;       ///< by a rough mirror: further ones are looked up
+};
+
+/// The rays of the camera and what they see.
+struct FieldShader::Picture {
+    std::span<const Ray> rays;
+    int perPixel;
+    std::span<Vec3> radiance;
+
+    /// Of its pixel.
+    std::size_t sampleOf(std::size_t ray) const { return ray % static_cast<std::size_t>(perPixel); }
+
+    RandomStream randomOf(std::size_t ray) const { return {sampleOf(ray), pixelKey(ray)}; }
+
+    /// Point i of n that cover the unit square evenly, also with those of the pixel's other rays.
+    Vec2 point(std::size_t ray, int i, int n) const {
+        return r2Point(static_cast<std::uint32_t>(sampleOf(ray) * n + i),
+                       RandomStream(perPixel, pixelKey(ray)).next2());
+    }
+
+  private:
+    std::uint64_t pixelKey(std::size_t ray) const {
+        const Vec3& direction = rays[ray - sampleOf(ray)].direction;
+        std::uint64_t key = 0;
+        for (const std::uint32_t bits : std::bit_cast<std::array<std::uint32_t, 3>>(direction))
+            key = mixBits(key + bits);
+        return key;
+    }
 };
 
 struct FieldShader::Queue {
@@ -79,6 +115,7 @@ FieldShader::FieldShader(const Scene& scene, const RayScene& rays, const LightFi
             throw InputError(
                 "the light field holds no radiance of rough mirrors: bake with gloss directions");
         gloss_.emplace(field.frame, field.gloss, MirrorKind::rough);
+        if (!looksUp()) lamps_.emplace(scene, rays, objects_ ? &objects_->rays() : nullptr);
     }
     if (objects_ && (gloss_ || looksUp())) {
         changed_.emplace(scene, field);
@@ -121,7 +158,9 @@ const IrradianceAtlas& FieldShader::atlas() const {
     return objects_ ? objects_->irradiance() : field_.atlas;
 }
 
-std::uint64_t FieldShader::radiance(std::span<const Ray> rays, std::span<Vec3> radiance) const {
+std::uint64_t FieldShader::radiance(std::span<const Ray> rays, std::span<Vec3> radiance,
+                                    int perPixel) const {
+    const Picture picture{rays, perPixel, radiance};
     std::fill(radiance.begin(), radiance.end(), Vec3(0));
     Queue queue, next;
     for (std::size_t i = 0; i < rays.size(); ++i) queue.add({i, Vec3(1)}, rays[i]);
@@ -136,13 +175,12 @@ std::uint64_t FieldShader::radiance(std::span<const Ray> rays, std::span<Vec3> r
         traced += hits.size();
         for (std::size_t i = 0; i < hits.size(); ++i)
             if (objects_ && objectHits[i] && objectHits[i].hit.t < hits[i].t)
-                followObject(queue.paths[i], queue.rays[i], objectHits[i], radiance, next);
+                followObject(queue.paths[i], queue.rays[i], objectHits[i], picture, next);
             else if (hits[i])
-                followRoom(queue.paths[i], queue.rays[i], hits[i], radiance, next);
+                followRoom(queue.paths[i], queue.rays[i], hits[i], picture, next);
             else
-                radiance[queue.paths[i].ray] +=
-                    queue.paths[i].throughput *
-                    skyRadiance(scene_.environment, queue.rays[i].direction);
+                picture.radiance[queue.paths[i].ray] +=
+                    queue.paths[i].throughput * skySeen(queue.paths[i], queue.rays[i].direction);
         std::swap(queue, next);
         next.clear();
     }
@@ -155,7 +193,8 @@ void FieldShader::closestObjects(std::span<const Ray> rays, std::vector<Instance
     objects_->rays().closest(rays, hits);
 }
 
-std::optional<FieldShader::RoomPoint> FieldShader::roomPoint(const Ray& ray, const Hit& hit) const {
+std::optional<FieldShader::RoomPoint> FieldShader::roomPoint(const Path& path, const Ray& ray,
+                                                             const Hit& hit) const {
     const SidePoint point = pointFacing(scene_, hit, ray.direction);
     const std::uint32_t chartIndex = chartAt(field_, point);
     if (chartIndex == kNoChart) return std::nullopt;
@@ -163,64 +202,110 @@ std::optional<FieldShader::RoomPoint> FieldShader::roomPoint(const Ray& ray, con
     RoomPoint seen{surfaceAt(scene_, point), chartIndex};
     Surface& surface = seen.surface;
     const Vec3 irradiance = atlas().sample(chart, chart.texelCoordinates(surface.position));
-    seen.own = emittedRadiance(scene_, point) + surface.diffuse * irradiance / kPi;
+    seen.own = emitterSeen(path, point, ray, hit) + surface.diffuse * irradiance / kPi;
     seen.remaining = shadows_.remaining(surface);
     seen.own *= seen.remaining;
     if (chart.planar) surface.normal = surface.geometricNormal;
     if (const Material& m = scene_.material(hit.triangle); m.isGlass())
         surface.mirror = Vec3(splitAt(surface, m, ray.direction).reflectance);
-    if (gloss_ && !surface.isPerfectMirror()) {
+    if (gloss_ && !surface.isPerfectMirror() && (looksUp() || path.spread)) {
         seen.own += seen.remaining * lookUpGloss(seen, ray);
         surface.mirror = Vec3(0);
     }
     return seen;
 }
 
+Vec3 FieldShader::skySeen(const Path& path, const Vec3& direction) const {
+    const Vec3 radiance = skyRadiance(scene_.environment, direction);
+    return path.density == kCertain ? radiance
+                                    : radiance * lamps_->weightOfSky(direction, path.density);
+}
+
+Vec3 FieldShader::emitterSeen(const Path& path, const SidePoint& point, const Ray& ray,
+                              const Hit& hit) const {
+    const Vec3 emission = emittedRadiance(scene_, point);
+    if (path.density == kCertain || emission == Vec3(0)) return emission;
+    return emission *
+           lamps_->weightOfEmitter(point, ray.direction, path.straight + hit.t, path.density);
+}
+
 /// Goes on behind glass, and with what it reflects as far as that is traced. False if that is
 /// looked up, in solid glass with all that is seen in it.
 bool FieldShader::followGlass(const Path& path, const Ray& ray, const Hit& hit,
-                              std::span<Vec3> radiance, Queue& next) const {
+                              const Picture& picture, Queue& next) const {
     const Material& glass = scene_.material(hit.triangle);
     if (!glass.isGlass() || (looksUp() && !glass.thin)) return false;
     const Surface surface = surfaceAt(scene_, pointFacing(scene_, hit, ray.direction));
     const GlassSplit split = splitAt(surface, glass, ray.direction);
-    if (looksUp()) radiance[path.ray] += path.throughput * lookUpSurface(ray, hit);
+    if (looksUp()) picture.radiance[path.ray] += path.throughput * lookUpSurface(ray, hit);
     vlf::followGlass(split, glass.transmission, path.throughput,
                      [&](const Vec3& direction, float side, const Vec3& weight) {
                          const Vec3 throughput = path.throughput * weight;
                          if (maxComponent(throughput) < kMinThroughput) return;
                          if (looksUp() && side > 0) return;
                          const Vec3 offset = side * rays_.epsilon() * surface.geometricNormal;
-                         next.add({path.ray, throughput}, {surface.position + offset, direction});
+                         Path on{path.ray, throughput, kCertain, 0, path.spread};
+                         if (glass.thin && side < 0)
+                             on.density = path.density, on.straight = path.straight + hit.t;
+                         next.add(on, {surface.position + offset, direction});
                      });
     return true;
 }
 
 void FieldShader::followRoom(const Path& path, const Ray& ray, const Hit& hit,
-                             std::span<Vec3> radiance, Queue& next) const {
-    if (followGlass(path, ray, hit, radiance, next)) return;
+                             const Picture& picture, Queue& next) const {
+    if (followGlass(path, ray, hit, picture, next)) return;
     if (looksUp()) {
-        radiance[path.ray] += path.throughput * lookUpSurface(ray, hit);
+        picture.radiance[path.ray] += path.throughput * lookUpSurface(ray, hit);
         return;
     }
-    const std::optional<RoomPoint> point = roomPoint(ray, hit);
+    const std::optional<RoomPoint> point = roomPoint(path, ray, hit);
     if (!point) return;
-    radiance[path.ray] += path.throughput * point->own;
+    picture.radiance[path.ray] += path.throughput * point->own;
     const Vec3 throughput = point->remaining * path.throughput * point->surface.mirror;
     if (maxComponent(throughput) < kMinThroughput) return;
-    next.add({path.ray, throughput}, point->reflect(ray.direction, rays_.epsilon()));
+    if (point->surface.isPerfectMirror())
+        next.add({path.ray, throughput, kCertain, 0, path.spread},
+                 point->reflect(ray.direction, rays_.epsilon()));
+    else
+        followLobe({path.ray, point->remaining * path.throughput}, ray, point->surface, picture,
+                   next);
+}
+
+/// What a rough mirror reflects: of lamps some samples, of them and all else some rays of its lobe.
+void FieldShader::followLobe(const Path& path, const Ray& ray, const Surface& surface,
+                             const Picture& picture, Queue& next) const {
+    Surface mirror = surface;
+    mirror.diffuse = Vec3(0);
+    const Scattering lobe(mirror, -glm::normalize(ray.direction));
+    RandomStream random = picture.randomOf(path.ray);
+    Vec3 light = lamps_->punctual(mirror, lobe, random);
+    for (int i = 0; i < kLampRays; ++i)
+        light += (lamps_->emitters(mirror, lobe, random) + lamps_->sky(mirror, lobe, random)) /
+                 static_cast<float>(kLampRays);
+    picture.radiance[path.ray] += path.throughput * light;
+
+    const Vec3 origin = surface.position + rays_.epsilon() * surface.geometricNormal;
+    for (int i = 0; i < kLobeRays; ++i) {
+        const Vec3 direction = lobe.drawGloss(picture.point(path.ray, i, kLobeRays));
+        const float density = lobe.density(direction);
+        const Vec3 throughput =
+            path.throughput * lobe.lobes(direction) / (density * static_cast<float>(kLobeRays));
+        if (maxComponent(throughput) > 0)
+            next.add({path.ray, throughput, density, 0, true}, {origin, direction});
+    }
 }
 
 void FieldShader::followObject(const Path& path, const Ray& ray, const InstanceHit& hit,
-                               std::span<Vec3> radiance, Queue& next) const {
+                               const Picture& picture, Queue& next) const {
     if (looksUp()) {
-        radiance[path.ray] += path.throughput * lookUpObject(ray, hit, 0);
+        picture.radiance[path.ray] += path.throughput * lookUpObject(ray, hit, 0);
         return;
     }
     const LitObject& object = objects_->litObjects()[hit.instance];
     const std::optional<Surface> surface = surfaceOf(object, hit.hit, ray.direction);
     if (!surface) return;
-    radiance[path.ray] += path.throughput * ownRadiance(object, *surface);
+    picture.radiance[path.ray] += path.throughput * ownRadiance(object, *surface);
     const Vec3 throughput = path.throughput * surface->mirror;
     if (maxComponent(throughput) < kMinThroughput) return;
     next.add({path.ray, throughput},
@@ -247,7 +332,7 @@ Vec3 FieldShader::lookUpRoom(const Ray& ray, const Hit& hit) const {
 
 /// What leaves the room's surface itself, of a pane without what is behind it.
 Vec3 FieldShader::lookUpSurface(const Ray& ray, const Hit& hit) const {
-    const std::optional<RoomPoint> point = roomPoint(ray, hit);
+    const std::optional<RoomPoint> point = roomPoint({0, Vec3(1), kCertain, 0, true}, ray, hit);
     if (!point) return Vec3(0);
     if (!lookedUp_ || maxComponent(point->surface.mirror) < kMinThroughput) return point->own;
     return point->own + point->remaining * lookUpMirror(*point, ray);

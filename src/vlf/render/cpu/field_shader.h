@@ -7,6 +7,7 @@
 #include "vlf/dynamic/reflection_probe.h"
 #include "vlf/field/light_field.h"
 #include "vlf/render/cpu/hard_shadows.h"
+#include "vlf/render/cpu/lamp_light.h"
 #include "vlf/render/cpu/radiance_lookup.h"
 #include "vlf/render/cpu/surface.h"
 
@@ -19,10 +20,11 @@ namespace vlf {
 
 /// How light that mirrors reflect is found.
 ///
-/// Looked up, no ray is traced through the room for it: a mirror of the room shows the radiance
-/// field, multiplied by the change of irradiance at the place seen, and the objects before that
-/// place, which reflected rays are traced among; a mirror object shows its reflection probe, and
-/// likewise the objects before what the probe shows.
+/// Traced, the light that a rough mirror reflects is an estimate from rays of its lobe and towards
+/// lamps; rough mirrors that it shows are looked up. Looked up, no ray is traced through the room
+/// for it: a mirror of the room shows the radiance field, multiplied by the change of irradiance at
+/// the place seen, and the objects before that place, which reflected rays are traced among; a
+/// mirror object shows its reflection probe, and likewise the objects before what the probe shows.
 enum class MirrorMethod { traced, lookedUp };
 
 /// The chart of the side a point lies on; kNoChart if that side needs none.
@@ -35,30 +37,41 @@ class FieldShader {
     static constexpr int kProbeSize = 128;  ///< texels along a face of a mirror object's probe
 
     /// `objects`: up to date, of this room; null: none. Throws InputError if the field is not of
-    /// this scene, or if mirrors are to be looked up in a field that holds no radiance of them;
-    /// what rough mirrors show is always looked up.
+    /// this scene, or if mirrors are to be looked up in a field that holds no radiance of them:
+    /// rough ones always, if only where they are seen in one another.
     FieldShader(const Scene& scene, const RayScene& rays, const LightField& field,
                 MirrorMethod mirrors = MirrorMethod::traced,
                 LookupKind lookup = LookupKind::depthCorrected,
                 const DynamicRoom* objects = nullptr);
 
-    /// Radiance (W·m⁻²·sr⁻¹) that arrives along each of `rays` from where it points; the environment's
-    /// from outside the scene, black from sides without a chart. Returns the number of rays traced.
-    std::uint64_t radiance(std::span<const Ray> rays, std::span<Vec3> radiance) const;
+    /// Radiance (W·m⁻²·sr⁻¹) that arrives along each of `rays` from where it points; the
+    /// environment's from outside the scene, black from sides without a chart. Of rough mirrors
+    /// that are traced an estimate, for which the `perPixel` rays in a row of each pixel share
+    /// their samples. Returns the number of rays traced.
+    std::uint64_t radiance(std::span<const Ray> rays, std::span<Vec3> radiance,
+                           int perPixel = 1) const;
 
   private:
     struct Path;
+    struct Picture;
     struct Queue;
     struct RoomPoint;
 
     void closestObjects(std::span<const Ray> rays, std::vector<InstanceHit>& hits) const;
-    std::optional<RoomPoint> roomPoint(const Ray& ray, const Hit& hit) const;
-    void followRoom(const Path& path, const Ray& ray, const Hit& hit, std::span<Vec3> radiance,
+    std::optional<RoomPoint> roomPoint(const Path& path, const Ray& ray, const Hit& hit) const;
+    void followRoom(const Path& path, const Ray& ray, const Hit& hit, const Picture& picture,
                     Queue& next) const;
     void followObject(const Path& path, const Ray& ray, const InstanceHit& hit,
-                      std::span<Vec3> radiance, Queue& next) const;
+                      const Picture& picture, Queue& next) const;
 
-    bool followGlass(const Path& path, const Ray& ray, const Hit& hit, std::span<Vec3> radiance,
+    void followLobe(const Path& path, const Ray& ray, const Surface& surface,
+                    const Picture& picture, Queue& next) const;
+
+    Vec3 skySeen(const Path& path, const Vec3& direction) const;
+    Vec3 emitterSeen(const Path& path, const SidePoint& point, const Ray& ray,
+                     const Hit& hit) const;
+
+    bool followGlass(const Path& path, const Ray& ray, const Hit& hit, const Picture& picture,
                      Queue& next) const;
     Vec3 lookUpRoom(const Ray& ray, const Hit& hit) const;
     Vec3 lookUpSurface(const Ray& ray, const Hit& hit) const;
@@ -81,6 +94,7 @@ class FieldShader {
     HardShadows shadows_;
     std::optional<MirrorLookup> lookedUp_;  ///< set where mirrors are looked up
     std::optional<MirrorLookup> gloss_;     ///< set where there are rough mirrors
+    std::optional<LampLight> lamps_;        ///< set where these are traced
     std::optional<ChangedCharts> changed_;  ///< set where there are objects and one of these
     std::vector<ReflectionProbe> probes_;   ///< of each lit object; empty where it is no mirror
 };

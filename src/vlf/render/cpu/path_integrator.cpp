@@ -1,7 +1,5 @@
 #include "vlf/render/cpu/path_integrator.h"
 
-#include "vlf/trace/shadow_ray.h"
-
 #include <algorithm>
 
 namespace vlf {
@@ -11,18 +9,8 @@ namespace {
 /// Paths of this many segments and more are continued by chance.
 constexpr int kRouletteDepth = 4;
 
-/// As many punctual lights are all asked at every point; of more, one is picked.
-constexpr std::size_t kFewLights = 4;
-
 /// Keeps paths between perfect mirrors finite.
 constexpr float kMaxSurvival = 0.97f;
-
-/// Weight of a sample drawn with density p where another technique has density q (power
-/// heuristic, exponent 2). p may be infinite: a direction that only this technique can draw.
-float powerHeuristic(float p, float q) {
-    const float ratio = q / p;
-    return 1 / (1 + ratio * ratio);
-}
 
 /// Ends paths by chance in proportion to what they can still carry.
 bool survivesRoulette(Vec3& throughput, RandomStream& random) {
@@ -44,11 +32,7 @@ struct PathIntegrator::Path {
 };
 
 PathIntegrator::PathIntegrator(const Scene& scene, const RayScene& rays, const PathOptions& options)
-    : scene_(scene),
-      rays_(rays),
-      options_(options),
-      emitters_(scene),
-      sky_(scene.environment, meanLuminance(scene.environment)) {}
+    : scene_(scene), rays_(rays), options_(options), lamps_(scene, rays) {}
 
 Vec3 PathIntegrator::radiance(const Ray& ray, RandomStream& random) const {
     Path path{ray};
@@ -98,92 +82,30 @@ Vec3 PathIntegrator::followPath(Path path, RandomStream& random) const {
     return radiance;
 }
 
-/// By the lobes all of the environment can be met, by its brightness what is above the mean.
+/// Density by which light is weighted that the path meets.
+float PathIntegrator::rivalDensity(const Path& path) const {
+    return options_.sampleEmitters ? path.density : kCertain;
+}
+
 Vec3 PathIntegrator::skySeen(const Path& path) const {
-    const Vec3 radiance = sky_.radiance(path.ray.direction);
-    if (!options_.sampleEmitters || path.density == kCertain || !sky_.hasBright()) return radiance;
-    return radiance * powerHeuristic(path.density, sky_.density(path.ray.direction));
+    const Vec3& direction = path.ray.direction;
+    return lamps_.skyRadiance(direction) * lamps_.weightOfSky(direction, rivalDensity(path));
 }
 
 Vec3 PathIntegrator::emitterSeen(const Path& path, const SidePoint& point) const {
     const Vec3 emission = emittedRadiance(scene_, point);
-    if (!options_.sampleEmitters || path.density == kCertain || emission == Vec3(0))
-        return emission;
-    const float cosine =
-        std::abs(glm::dot(geometricNormal(scene_, point.triangle), path.ray.direction));
-    const float distance = path.straight + path.hit.t;
-    const float density = emitters_.density(point.triangle) * distance * distance / cosine;
-    return emission * powerHeuristic(path.density, density);
+    if (emission == Vec3(0)) return emission;
+    return emission * lamps_.weightOfEmitter(point, path.ray.direction, path.straight + path.hit.t,
+                                             rivalDensity(path));
 }
 
 Vec3 PathIntegrator::directLight(const Surface& surface, const Scattering& scattering,
                                  RandomStream& random) const {
     if (!scattering.hasLobes()) return Vec3(0);
-    Vec3 light = punctualLight(surface, scattering, random);
+    Vec3 light = lamps_.punctual(surface, scattering, random);
     if (!options_.sampleEmitters) return light;
-    light += emitterLight(surface, scattering, random);
-    return light + skyLight(surface, scattering, random);
-}
-
-Vec3 PathIntegrator::punctualLight(const Surface& surface, const Scattering& scattering,
-                                   RandomStream& random) const {
-    const std::vector<PunctualLight>& lights = scene_.lights;
-    if (lights.empty()) return Vec3(0);
-    if (lights.size() > kFewLights) {
-        const PickedBeam picked =
-            pickBeam(lights, surface.position, rays_.epsilon(), random.next());
-        if (!(picked.probability > 0)) return Vec3(0);
-        return beamLight(surface, scattering, picked.beam) / picked.probability;
-    }
-    Vec3 sum(0);
-    for (const PunctualLight& light : lights)
-        sum += beamLight(surface, scattering, beamOf(light, surface.position, rays_.epsilon()));
-    return sum;
-}
-
-Vec3 PathIntegrator::beamLight(const Surface& surface, const Scattering& scattering,
-                               const LightBeam& beam) const {
-    const Vec3 light = scattering.lobes(beam.toLight) * beam.irradiance;
-    if (!(maxComponent(light) > 0)) return Vec3(0);
-    const Vec3 origin = surface.position + rays_.epsilon() * surface.geometricNormal;
-    return light * rays_.transmittance(shadowRay(origin, beam, rays_.epsilon())).colour;
-}
-
-Vec3 PathIntegrator::skyLight(const Surface& surface, const Scattering& scattering,
-                              RandomStream& random) const {
-    if (!sky_.hasBright()) return Vec3(0);
-    const Sky::Sample sample = sky_.sample(random.next2());
-    const Vec3 lobes = scattering.lobes(sample.direction);
-    if (maxComponent(lobes) <= 0 || !(sample.density > 0)) return Vec3(0);
-    const Transmittance passed = rays_.transmittance(rayFrom(surface, sample.direction));
-    const float byChance = scattering.density(sample.direction) * passed.chance;
-    const float weight = powerHeuristic(sample.density, byChance);
-    return lobes * sky_.radiance(sample.direction) * passed.colour * (weight / sample.density);
-}
-
-Vec3 PathIntegrator::emitterLight(const Surface& surface, const Scattering& scattering,
-                                  RandomStream& random) const {
-    if (emitters_.empty()) return Vec3(0);
-    SidePoint point = emitters_.sample(random);
-    Surface emitter = surfaceAt(scene_, point);
-    const Vec3 between = emitter.position - surface.position;
-    const float distance2 = glm::dot(between, between);
-    const Vec3 direction = between / std::sqrt(distance2);
-    if (!(distance2 > 0)) return Vec3(0);
-    const Vec3 lobes = scattering.lobes(direction);
-    if (maxComponent(lobes) <= 0) return Vec3(0);
-    if (glm::dot(emitter.geometricNormal, direction) > 0) {
-        point.front = false;
-        emitter.geometricNormal = -emitter.geometricNormal;
-    }
-    const Vec3 emission = emittedRadiance(scene_, point);
-    if (emission == Vec3(0)) return Vec3(0);
-    const Transmittance passed = visible(surface, emitter);
-    if (passed.colour == Vec3(0)) return Vec3(0);
-    const float density = emitters_.density(point.triangle) * distance2 /
-                          -glm::dot(emitter.geometricNormal, direction);
-    const float byChance = scattering.density(direction) * passed.chance;
-    return lobes * emission * passed.colour * (powerHeuristic(density, byChance) / density);
+    light += lamps_.emitters(surface, scattering, random);
+    return light + lamps_.sky(surface, scattering, random);
 }
 
 /// False where the path ends in the surface.
@@ -226,12 +148,6 @@ bool PathIntegrator::passGlass(const SidePoint& point, Path& path, RandomStream&
 
 Ray PathIntegrator::rayFrom(const Surface& surface, const Vec3& direction) const {
     return {surface.position + rays_.epsilon() * surface.geometricNormal, direction};
-}
-
-Transmittance PathIntegrator::visible(const Surface& surface, const Surface& emitter) const {
-    const Vec3 from = surface.position + rays_.epsilon() * surface.geometricNormal;
-    const Vec3 to = emitter.position + rays_.epsilon() * emitter.geometricNormal;
-    return rays_.transmittance({from, to - from, 0, 1});
 }
 
 }  // namespace vlf

@@ -1,14 +1,11 @@
 #pragma once
 // Light transport by random walks: the unbiased truth the baked field is measured against.
-// J. Kajiya, "The rendering equation", SIGGRAPH 1986; E. Veach and L. Guibas, "Optimally combining
-// sampling techniques for Monte Carlo rendering", SIGGRAPH 1995.
+// J. Kajiya, "The rendering equation", SIGGRAPH 1986.
 
 #include "vlf/math/random.h"
+#include "vlf/render/cpu/lamp_light.h"
 #include "vlf/render/cpu/scattering.h"
 #include "vlf/render/cpu/surface.h"
-#include "vlf/scene/emitter_sampler.h"
-#include "vlf/scene/light_beam.h"
-#include "vlf/scene/sky.h"
 
 #include <functional>
 #include <optional>
@@ -46,28 +43,20 @@ class PathIntegrator {
     struct Path;
 
     Vec3 followPath(Path path, RandomStream& random) const;
+    float rivalDensity(const Path& path) const;
     Vec3 emitterSeen(const Path& path, const SidePoint& point) const;
     Vec3 skySeen(const Path& path) const;
     Vec3 directLight(const Surface& surface, const Scattering& scattering,
                      RandomStream& random) const;
-    Vec3 emitterLight(const Surface& surface, const Scattering& scattering,
-                      RandomStream& random) const;
-    Vec3 punctualLight(const Surface& surface, const Scattering& scattering,
-                       RandomStream& random) const;
-    Vec3 beamLight(const Surface& surface, const Scattering& scattering,
-                   const LightBeam& beam) const;
-    Vec3 skyLight(const Surface& surface, const Scattering& scattering, RandomStream& random) const;
     bool scatter(const Surface& surface, const Scattering& scattering, Path& path,
                  RandomStream& random) const;
     Ray rayFrom(const Surface& surface, const Vec3& direction) const;
     bool passGlass(const SidePoint& point, Path& path, RandomStream& random) const;
-    Transmittance visible(const Surface& surface, const Surface& emitter) const;
 
     const Scene& scene_;
     const RayScene& rays_;
     PathOptions options_;
-    EmitterSampler emitters_;
-    Sky sky_;  ///< the bright part, which is sought by its brightness, above the mean
+    LampLight lamps_;
 };
 
 }  // namespace vlf

@@ -62,6 +62,11 @@ Vec3 Scattering::drawDiffuse(RandomStream& random) const {
     return surface_.geometricNormal;
 }
 
+Vec3 Scattering::drawGloss(const Vec2& u) const {
+    const Vec3 facet = sampleGgxNormal(surface_.roughness, glossToEye_, u);
+    return glm::normalize(gloss_.toWorld(glm::reflect(-glossToEye_, facet)));
+}
+
 std::optional<Scattering::Sample> Scattering::sample(RandomStream& random) const {
     Sample sample;
     const bool diffuse = diffuseChance_ >= 1 || random.next() < diffuseChance_;
@@ -71,8 +76,7 @@ std::optional<Scattering::Sample> Scattering::sample(RandomStream& random) const
     if (diffuse) {
         sample.direction = drawDiffuse(random);
     } else {
-        const Vec3 facet = sampleGgxNormal(surface_.roughness, glossToEye_, random.next2());
-        sample.direction = glm::normalize(gloss_.toWorld(glm::reflect(-glossToEye_, facet)));
+        sample.direction = drawGloss(random.next2());
     }
     sample.density = density(sample.direction);
     const Vec3 lobe = lobes(sample.direction);

@@ -28,6 +28,10 @@ class Scattering {
     /// Density with which sample() draws it by one of the lobes, per steradian.
     float density(const Vec3& direction) const;
 
+    /// Reflected by a facet of the rough mirror that is seen from the eye, a function of a point in
+    /// the unit square; may lie below the surface.
+    Vec3 drawGloss(const Vec2& u) const;
+
     struct Sample {
         Vec3 direction{0};
         Vec3 weight{0};     ///< BRDF times cosine by density

@@ -22,7 +22,9 @@ Image renderRadiance(const Scene& scene, const RayScene& rays, const LightField&
     return supersample(
         CameraRays(params.camera, params.width, params.height), params.width, params.height,
         params.antialias,
-        [&](std::span<const Ray> r, std::span<Vec3> seen) { return shader.radiance(r, seen); },
+        [&](std::span<const Ray> r, int perPixel, std::span<Vec3> seen) {
+            return shader.radiance(r, seen, perPixel);
+        },
         progress, traced);
 }
 

@@ -89,7 +89,7 @@ Image drawSubfieldDiagram(const Scene& scene, const RayScene& rays, const LightF
         const GlassRoom room(scene, rays, field, selection);
         image = supersample(
             CameraRays(overview, width, height), width, height, antialias,
-            [&](std::span<const Ray> r, std::span<Vec3> seen) { return room.shade(r, seen); },
+            [&](std::span<const Ray> r, int, std::span<Vec3> seen) { return room.shade(r, seen); },
             progress, traced);
     }
     drawLines(image, Projection(overview, width, height), scene,

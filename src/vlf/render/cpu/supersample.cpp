@@ -63,7 +63,7 @@ class TileSampler {
     /// Colours the pixels added since the last call, n x n rays each, in their order.
     const std::vector<PixelSamples>& shadePixels(int n) {
         colors_.resize(queue_.size());
-        traced_ += shade_(queue_, colors_);
+        traced_ += shade_(queue_, n * n, colors_);
         const std::size_t perPixel = static_cast<std::size_t>(n) * n;
         pixels_.assign(queue_.size() / perPixel, {});
         for (std::size_t i = 0; i < colors_.size(); ++i) {

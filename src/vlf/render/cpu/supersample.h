@@ -11,9 +11,11 @@
 
 namespace vlf {
 
-/// Gives each camera ray a colour and returns how many rays it traced for that. Called from several
-/// threads; a colour must depend on its ray alone.
-using RayShader = std::function<std::uint64_t(std::span<const Ray> rays, std::span<Vec3> colors)>;
+/// Gives each camera ray a colour and returns how many rays it traced for that; `perPixel` rays in
+/// a row are of one pixel. Called from several threads; a colour must depend on the rays of its
+/// pixel alone.
+using RayShader =
+    std::function<std::uint64_t(std::span<const Ray> rays, int perPixel, std::span<Vec3> colors)>;
 
 /// Point i of n x n within a pixel, in [0, 1]², down and to the right. No two share a row or column
 /// of the finest grid, so that edges of any slope are met in n² steps [A. Kensler, Correlated
