@@ -149,7 +149,8 @@ void addRender(CLI::App& app, const Globals& globals) {
     command->footer(
         std::string(
             "Modes:\n"
-            "  raytraced    diffuse light from the field, mirrors by tracing reflections\n"
+            "  raytraced    diffuse light from the field, mirrors by tracing reflections,\n"
+            "               those of rough mirrors with --backend cpu\n"
             "  field        diffuse light and mirrors from the field, no reflection traced\n"
             "  progressive  what that mode of a window comes to at rest: as raytraced\n"
             "  wireframe    a line drawing; hidden edges faint\n"

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -36,7 +37,7 @@ struct FieldShader::Path {
     Vec3 throughput;
     float density = kCertain;  ///< with which a lobe drew the ray
     float straight = 0;        ///< metres before the ray, through panes
-    bool spread = false;       ///< by a rough mirror: further ones are looked up
+    bool spread = false;       ///< by a rough mirror: others are looked up
 };
 
 /// The rays of the camera and what they see.
@@ -208,11 +209,19 @@ std::optional<FieldShader::RoomPoint> FieldShader::roomPoint(const Path& path, c
     if (chart.planar) surface.normal = surface.geometricNormal;
     if (const Material& m = scene_.material(hit.triangle); m.isGlass())
         surface.mirror = Vec3(splitAt(surface, m, ray.direction).reflectance);
-    if (gloss_ && !surface.isPerfectMirror() && (looksUp() || path.spread)) {
+    if (gloss_ && !surface.isPerfectMirror() && (path.spread || !tracesLobe(surface, ray))) {
         seen.own += seen.remaining * lookUpGloss(seen, ray);
         surface.mirror = Vec3(0);
     }
     return seen;
+}
+
+/// Whether the lobe of a rough mirror, seen along the ray, is narrower than the angle between the
+/// field's directions: towards grazing angles it narrows sideways with the cosine.
+bool FieldShader::tracesLobe(const Surface& surface, const Ray& ray) const {
+    if (looksUp()) return false;
+    const float cosine = -glm::dot(surface.normal, glm::normalize(ray.direction));
+    return surface.roughness * cosine < std::sqrt(2 * kPi / static_cast<float>(field_.gloss.lines));
 }
 
 Vec3 FieldShader::skySeen(const Path& path, const Vec3& direction) const {

@@ -21,7 +21,8 @@ namespace vlf {
 /// How light that mirrors reflect is found.
 ///
 /// Traced, the light that a rough mirror reflects is an estimate from rays of its lobe and towards
-/// lamps; rough mirrors that it shows are looked up. Looked up, no ray is traced through the room
+/// lamps where the field has too few directions for it; where the lobe is wide it is looked up, and
+/// so are rough mirrors that another one shows. Looked up, no ray is traced through the room
 /// for it: a mirror of the room shows the radiance field, multiplied by the change of irradiance at
 /// the place seen, and the objects before that place, which reflected rays are traced among; a
 /// mirror object shows its reflection probe, and likewise the objects before what the probe shows.
@@ -38,7 +39,7 @@ class FieldShader {
 
     /// `objects`: up to date, of this room; null: none. Throws InputError if the field is not of
     /// this scene, or if mirrors are to be looked up in a field that holds no radiance of them:
-    /// rough ones always, if only where they are seen in one another.
+    /// rough ones always.
     FieldShader(const Scene& scene, const RayScene& rays, const LightField& field,
                 MirrorMethod mirrors = MirrorMethod::traced,
                 LookupKind lookup = LookupKind::depthCorrected,
@@ -71,6 +72,7 @@ class FieldShader {
     Vec3 emitterSeen(const Path& path, const SidePoint& point, const Ray& ray,
                      const Hit& hit) const;
 
+    bool tracesLobe(const Surface& surface, const Ray& ray) const;
     bool followGlass(const Path& path, const Ray& ray, const Hit& hit, const Picture& picture,
                      Queue& next) const;
     Vec3 lookUpRoom(const Ray& ray, const Hit& hit) const;
