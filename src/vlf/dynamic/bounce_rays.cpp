@@ -16,6 +16,11 @@ namespace {
 constexpr std::size_t kMostRays = 1u << 21;  // in all
 constexpr std::size_t kFewest = 32, kMost = 256;
 constexpr std::size_t kGroupsPerBlock = 16;
+/// From this far on, in radii of a group, what arrives at one of its texels counts for them all,
+/// and where rays lie farther apart than this many texels, for a block of them.
+constexpr float kFar = 5;
+constexpr int kSquare = 2;
+constexpr float kSpread = 0.6f;
 
 /// i's bits (of `count`, a power of two) in reverse, as a fraction of one.
 float reversed(std::uint32_t i) {
@@ -39,6 +44,18 @@ Ray rayFrom(const Scene& scene, const RoomTexels& room, float epsilon, std::uint
     const Vec3 normal = glm::normalize(front ? triangle.areaVector : -triangle.areaVector);
     return {positionAt(scene, p.triangle, p.barycentric) + epsilon * normal,
             frameFromNormal(normal).toWorld(sampleCosineHemisphere(r2Point(i, shift)))};
+}
+
+BounceRays::Arrival arrivalAt(const RoomTexels& room, std::uint32_t texel, float distance,
+                              const Vec3& throughput) {
+    using Unit = BounceRays::Unit;
+    if (distance > kFar * room.groups[room.groupOf[texel]].bounds.radius)
+        return {texel, Unit::group, 0, throughput};
+    const Unwrap& unwrap = room.unwrap;
+    const Chart& chart = unwrap.charts[unwrap.texelChart[room.entryOf[texel]]];
+    const int reach = static_cast<int>(kSpread * distance / chart.texelSize() + 0.5f);
+    if (reach > kSquare) return {texel, Unit::block, 0, throughput};
+    return {texel, Unit::texel, static_cast<std::uint16_t>(reach), throughput};
 }
 
 struct Part {
@@ -66,12 +83,16 @@ BounceRays::BounceRays(const Scene& scene, const RayScene& rays, const RoomTexel
             queue.push_back(rayFrom(scene, room, rays.epsilon(), entry, i, shift));
         }
         SightTracer(scene, rays, room).trace(queue, sights);
+        const auto add = [&](std::uint32_t ray, std::uint32_t texel, float distance,
+                             const Vec3& throughput) {
+            if (!room.hidden[texel])
+                found.push_back({ray, arrivalAt(room, texel, distance, throughput)});
+        };
         for (std::uint32_t i = 0; i < queue.size(); ++i)
-            if (sights.texel[i] != kNoTexel)
-                found.push_back({i, {sights.texel[i], sights.distance[i], Vec3(1)}});
+            if (sights.texel[i] != kNoTexel) add(i, sights.texel[i], sights.distance[i], Vec3(1));
         for (const Sight& sight : sights.others)
             if (sight.texel != kNoTexel && sight.covered)
-                found.push_back({sight.ray, {sight.texel, sight.distance, sight.throughput}});
+                add(sight.ray, sight.texel, sight.distance, sight.throughput);
         std::ranges::stable_sort(found, {}, &std::pair<std::uint32_t, Arrival>::first);
         std::size_t k = 0;
         for (std::uint32_t i = 0; i < queue.size(); ++i) {

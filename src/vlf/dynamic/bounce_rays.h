@@ -13,11 +13,15 @@ namespace vlf {
 
 class BounceRays {
   public:
+    /// What light that arrives is dealt to: the farther it comes from the more texels, or single
+    /// ones would flicker.
+    enum class Unit : std::uint16_t { texel, block, group };
     /// Where a ray, or a part of it, comes to.
     struct Arrival {
-        std::uint32_t texel = 0;
-        float distance = 0;  ///< m, along the way
-        Vec3 throughput{1};  ///< of the mirrors on the way
+        std::uint32_t texel = 0;  ///< not hidden
+        Unit unit = Unit::texel;
+        std::uint16_t reach = 0;  ///< of a texel: so far those about it share what it gets
+        Vec3 throughput{1};       ///< of the mirrors on the way
     };
     struct Launch {
         std::uint32_t texel = 0;  ///< covered; each of a group comes up as often as any other

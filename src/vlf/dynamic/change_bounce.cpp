@@ -1,20 +1,19 @@
 #include "vlf/dynamic/change_bounce.h"
 
+#include "vlf/base/parallel.h"
+
 #include <algorithm>
+#include <array>
 #include <bit>
 
 namespace vlf {
 
 namespace {
 
+constexpr std::size_t kGroupsAtOnce = 16;
+constexpr int kSide = RoomTexels::kGroupSide;
 constexpr float kPortion = 2.5e-8f;  // of the room's flux, that a ray carries
 constexpr float kFewestRays = 16;    // of a group
-/// From this far on, in radii of a group, what arrives at one of its texels counts for them all,
-/// and where rays lie farther apart than this many texels, for a block of them: few rays would make
-/// single texels flicker.
-constexpr float kFar = 5;
-constexpr int kSquare = 2;
-constexpr float kSpread = 0.6f;
 /// A ray of a group that changes evenly may stand for 4 of its texels: too much for one other.
 constexpr int kEvenReach = 1;
 
@@ -43,12 +42,6 @@ class Shares {
     float first_, second_;
 };
 
-Vec3 placeOf(std::uint32_t texel, const Scene& scene, const RoomTexels& room) {
-    const auto points = room.unwrap.points.of(room.entryOf[texel]);
-    const SurfacePoint& p = points[points.size() / 2];
-    return positionAt(scene, p.triangle, p.barycentric);
-}
-
 bool passes(const Sphere& sphere, const Vec3& from, const Vec3& way) {
     const Vec3 toCentre = sphere.centre - from;
     const float along =
@@ -61,71 +54,90 @@ bool passes(const Sphere& sphere, const Vec3& from, const Vec3& way) {
 
 bool ObjectsBetween::block(std::uint32_t from, std::uint32_t to, const RoomTexels& room) const {
     constexpr float kEnds = 1e-3f;  // of the way, where an object may touch a texel
-    const Vec3 a = placeOf(from, scene, room), way = placeOf(to, scene, room) - a;
+    const Vec3 a = room.place[from], way = room.place[to] - a;
     const auto near = [&](const Sphere& sphere) { return passes(sphere, a, way); };
     return std::any_of(spheres.begin(), spheres.end(), near) &&
            instances.occluded({a, way, kEnds, 1 - kEnds});
 }
 
-void ChangeBounce::send(const RoomChange& change, std::uint32_t g, const BounceRays& rays,
-                        const RoomTexels& room, const Coverage& coverage,
-                        const ObjectsBetween& objects, float portion) {
-    const TexelGroup& group = room.groups[g];
-    const auto launches = rays.of(g);
-    Vec3 flux(0);
-    if (!change.variesIn(g)) {
+/// What groups of texels send on.
+struct ChangeBounce::Sender {
+    const RoomChange& change;
+    const BounceRays& rays;
+    const RoomTexels& room;
+    const Coverage& coverage;
+    const ObjectsBetween& objects;
+    float portion;  ///< flux of a ray, where there are enough
+
+    void send(std::uint32_t group, std::vector<Parcel>& parcels) const {
+        change.variesIn(group) ? sendFromTexels(group, parcels) : sendFromAll(group, parcels);
+    }
+
+  private:
+    void sendFromAll(std::uint32_t g, std::vector<Parcel>& parcels) const {
+        Vec3 flux(0);
         for (std::uint32_t block = 4 * g; block < 4 * g + 4; ++block)
             flux += room.blockReflects[block] * change.ofBlock(block);
         if (flux == Vec3(0)) return;
         const Shares shares(size(flux) / portion, kFewestRays, rays.perGroup());
-        for (std::uint32_t i = 0; i < shares.count(); ++i)
-            for (const BounceRays::Arrival& arrival : rays.arrivals(launches[i]))
-                if (!objects.block(launches[i].texel, arrival.texel, room))
-                    arrive(arrival, kEvenReach, shares.of(i) * flux, room);
-        return;
+        follow(g, shares.count(), kEvenReach, parcels,
+               [&](std::uint32_t i, std::uint32_t) { return shares.of(i) * flux; });
     }
-    float all = 0;
-    for (std::uint32_t i = group.first; i < group.first + group.count; ++i) {
-        const std::uint32_t t = room.unwrap.texels[room.grouped[i]];
-        const Vec3 sent =
-            room.reflectance[t] * change.of(t) * (room.area[t] * coverage.uncovered(t));
-        sent_[room.placeOf[t]] = static_cast<float>(group.count) * sent;
-        all += size(sent);
-    }
-    if (all == 0) return;
-    const Shares shares(all / portion, std::min<float>(64, rays.perGroup()), rays.perGroup());
-    for (std::uint32_t i = 0; i < shares.count(); ++i)
-        for (const BounceRays::Arrival& arrival : rays.arrivals(launches[i]))
-            if (!objects.block(launches[i].texel, arrival.texel, room))
-                arrive(arrival, 0, shares.of(i) * sent_[room.placeOf[launches[i].texel]], room);
-}
 
-void ChangeBounce::arrive(const BounceRays::Arrival& arrival, int leastReach, const Vec3& sent,
-                          const RoomTexels& room) {
-    if (room.hidden[arrival.texel]) return;
-    const Vec3 flux = arrival.throughput * sent;
-    const std::uint32_t block = room.blockOf[arrival.texel];
-    const TexelGroup& group = room.groups[block / 4];
-    if (arrival.distance > kFar * group.bounds.radius) {
-        groups_[block / 4] += flux;
-        return;
+    void sendFromTexels(std::uint32_t g, std::vector<Parcel>& parcels) const {
+        const TexelGroup& group = room.groups[g];
+        std::array<Vec3, kSide * kSide> sent;
+        float all = 0;
+        for (std::uint32_t i = group.first; i < group.first + group.count; ++i) {
+            const std::uint32_t t = room.unwrap.texels[room.grouped[i]];
+            const Vec3 own =
+                room.reflectance[t] * change.of(t) * (room.area[t] * coverage.uncovered(t));
+            sent[room.placeOf[t]] = static_cast<float>(group.count) * own;
+            all += size(own);
+        }
+        if (all == 0) return;
+        const Shares shares(all / portion, std::min<float>(64, rays.perGroup()), rays.perGroup());
+        follow(g, shares.count(), 0, parcels, [&](std::uint32_t i, std::uint32_t texel) {
+            return shares.of(i) * sent[room.placeOf[texel]];
+        });
     }
-    const Unwrap& unwrap = room.unwrap;
-    const Chart& chart = unwrap.charts[unwrap.texelChart[room.entryOf[arrival.texel]]];
-    const int reach = static_cast<int>(kSpread * arrival.distance / chart.texelSize() + 0.5f);
-    if (reach > kSquare)
-        blocks_[block] += flux;
+
+    /// The first rays of a group; fluxOf(ray, texel it starts from).
+    template <class FluxOf>
+    void follow(std::uint32_t group, std::uint32_t count, int leastReach,
+                std::vector<Parcel>& parcels, FluxOf fluxOf) const {
+        const auto launches = rays.of(group);
+        for (std::uint32_t i = 0; i < count; ++i) {
+            const std::uint32_t from = launches[i].texel;
+            for (const BounceRays::Arrival& arrival : rays.arrivals(launches[i]))
+                if (!objects.block(from, arrival.texel, room))
+                    parcels.push_back({arrival.unit, numberOf(arrival),
+                                       std::max<int>(arrival.reach, leastReach),
+                                       arrival.throughput * fluxOf(i, from)});
+        }
+    }
+
+    std::uint32_t numberOf(const BounceRays::Arrival& arrival) const {
+        if (arrival.unit == BounceRays::Unit::texel) return arrival.texel;
+        return arrival.unit == BounceRays::Unit::block ? room.blockOf[arrival.texel]
+                                                       : room.groupOf[arrival.texel];
+    }
+};
+
+void ChangeBounce::deal(const Parcel& parcel, const RoomTexels& room) {
+    if (parcel.unit == BounceRays::Unit::texel)
+        spread(parcel, room);
     else
-        spread(arrival, std::max(reach, leastReach), flux, room);
+        (parcel.unit == BounceRays::Unit::block ? blocks_ : groups_)[parcel.number] += parcel.flux;
 }
 
 /// Over a square of texels around the one it has come to that is as wide as rays lie apart there.
-void ChangeBounce::spread(const BounceRays::Arrival& arrival, int reach, const Vec3& flux,
-                          const RoomTexels& room) {
+void ChangeBounce::spread(const Parcel& parcel, const RoomTexels& room) {
     const Unwrap& unwrap = room.unwrap;
-    const Chart& chart = unwrap.charts[unwrap.texelChart[room.entryOf[arrival.texel]]];
-    const auto x = static_cast<int>(arrival.texel % unwrap.atlasWidth - chart.x);
-    const auto y = static_cast<int>(arrival.texel / unwrap.atlasWidth - chart.y);
+    const Chart& chart = unwrap.charts[unwrap.texelChart[room.entryOf[parcel.number]]];
+    const auto x = static_cast<int>(parcel.number % unwrap.atlasWidth - chart.x);
+    const auto y = static_cast<int>(parcel.number / unwrap.atlasWidth - chart.y);
+    const int reach = parcel.reach;
     const std::size_t first = near_.size();
     float area = 0;
     for (int v = std::max(0, y - reach); v <= std::min<int>(chart.height - 1, y + reach); ++v)
@@ -133,10 +145,10 @@ void ChangeBounce::spread(const BounceRays::Arrival& arrival, int reach, const V
             const std::uint32_t t = (chart.y + v) * unwrap.atlasWidth + chart.x + u;
             if (room.area[t] <= 0 || room.hidden[t]) continue;
             area += room.area[t];
-            near_.push_back({t, flux});
+            near_.push_back({t, parcel.flux});
         }
     for (std::size_t i = first; i < near_.size(); ++i) near_[i].irradiance /= area;
-    again_ += room.reflectance[arrival.texel] * flux;
+    again_ += room.reflectance[parcel.number] * parcel.flux;
 }
 
 void ChangeBounce::collect(const RoomTexels& room) {
@@ -166,11 +178,18 @@ void ChangeBounce::find(const RoomChange& change, const BounceRays& rays, const 
                         const Coverage& coverage, const ObjectsBetween& objects, float roomFlux) {
     groups_.resize(room.groups.size());
     blocks_.resize(room.blockArea.size());
-    sent_.resize(RoomTexels::kGroupSide * RoomTexels::kGroupSide);
     clear();
-    const float portion = std::max(kPortion * roomFlux, 1e-30f);
-    for (std::uint32_t g = 0; g < room.groups.size(); ++g)
-        send(change, g, rays, room, coverage, objects, portion);
+    const Sender sender{change,   rays,    room,
+                        coverage, objects, std::max(kPortion * roomFlux, 1e-30f)};
+    parcels_.resize((room.groups.size() + kGroupsAtOnce - 1) / kGroupsAtOnce);
+    parallelFor(parcels_.size(), 1, [&](std::size_t k) {
+        parcels_[k].clear();
+        const std::size_t end = std::min(room.groups.size(), (k + 1) * kGroupsAtOnce);
+        for (std::size_t g = k * kGroupsAtOnce; g < end; ++g)
+            sender.send(static_cast<std::uint32_t>(g), parcels_[k]);
+    });
+    for (const std::vector<Parcel>& some : parcels_)
+        for (const Parcel& parcel : some) deal(parcel, room);
     collect(room);
     found_ = true;
 }

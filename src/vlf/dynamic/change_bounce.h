@@ -23,7 +23,6 @@ struct TexelChange {
 
 /// Objects that light may meet on its way from texel to texel.
 struct ObjectsBetween {
-    const Scene& scene;               ///< the room
     const RayInstances& instances;    ///< the objects
     std::span<const Sphere> spheres;  ///< around them
 
@@ -46,18 +45,22 @@ class ChangeBounce {
     void clear();
 
   private:
-    void send(const RoomChange& change, std::uint32_t group, const BounceRays& rays,
-              const RoomTexels& room, const Coverage& coverage, const ObjectsBetween& objects,
-              float portion);
-    void arrive(const BounceRays::Arrival& arrival, int leastReach, const Vec3& flux,
-                const RoomTexels& room);
-    void spread(const BounceRays::Arrival& arrival, int reach, const Vec3& flux,
-                const RoomTexels& room);
+    /// What a ray brings, and to what.
+    struct Parcel {
+        BounceRays::Unit unit;
+        std::uint32_t number;  ///< of the texel, block or group
+        int reach;             ///< texels about it that get it, too
+        Vec3 flux;             ///< W
+    };
+    struct Sender;
+
+    void deal(const Parcel& parcel, const RoomTexels& room);
+    void spread(const Parcel& parcel, const RoomTexels& room);
     void collect(const RoomTexels& room);
 
+    std::vector<std::vector<Parcel>> parcels_;  ///< by some groups that send them
     std::vector<TexelChange> near_;
     std::vector<Vec3> blocks_, groups_;  ///< flux, W; then irradiance of all of their texels, W·m⁻²
-    std::vector<Vec3> sent_;             ///< flux by texel of a group
     Vec3 again_{0};                      ///< flux that is reflected once more, W
     Vec3 ambient_{0};                    ///< of all texels
     bool found_ = false;

@@ -200,8 +200,7 @@ void LightExchange::changeRoom(bool bouncing) {
     for (const Body& body : bodies_) body.light->addChange(change_);
     if (bouncing && !change_.texels().empty()) {
         if (bounceRays_.empty()) bounceRays_ = BounceRays(scene_, roomRays_, texels_);
-        bounce_.find(change_, bounceRays_, texels_, coverage_, {scene_, instances_, spheres_},
-                     roomFlux_);
+        bounce_.find(change_, bounceRays_, texels_, coverage_, {instances_, spheres_}, roomFlux_);
     }
     bounce_.addTo(change_, kLeastAmbient * luminance(meanIrradiance_));
     for (const TexelChange& t : emitted_) change_.add(t.texel, t.irradiance);

@@ -37,14 +37,33 @@ bool isClosed(const Scene& scene) {
     return std::all_of(balance.begin(), balance.end(), [](const auto& e) { return e.second == 0; });
 }
 
+/// Of the winding normals of a closed mesh: -1 where they point inwards.
+float outwardSign(const Scene& scene) {
+    double volume = 0;
+    for (std::uint32_t t = 0; t < scene.triangles.size(); ++t)
+        volume += glm::dot(scene.position(t, 0) - scene.position(0, 0), areaVector(scene, t));
+    return volume < 0 ? -1.0f : 1.0f;
+}
+
+/// Whether no vertex lies above the plane of any triangle; of large meshes it is not known.
+bool isConvex(const Scene& scene, float radius) {
+    constexpr std::size_t kMostPairs = std::size_t{1} << 24;
+    if (scene.triangles.size() * scene.positions.size() > kMostPairs) return false;
+    const float slack = 1e-5f * radius, outward = outwardSign(scene);
+    for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) {
+        const Vec3 normal = outward * geometricNormal(scene, t), at = scene.position(t, 0);
+        if (std::ranges::any_of(scene.positions,
+                                [&](const Vec3& p) { return glm::dot(normal, p - at) > slack; }))
+            return false;
+    }
+    return true;
+}
+
 /// Systematic sampling: along the triangles one after the other a point for every part of the area.
 float spreadPatches(const Scene& scene, std::span<SurfacePatch> patches) {
-    double all = 0, volume = 0;
-    for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) {
-        all += area(scene, t);
-        volume += glm::dot(scene.position(t, 0) - scene.position(0, 0), areaVector(scene, t));
-    }
-    const float outward = volume < 0 ? -1.0f : 1.0f;
+    double all = 0;
+    for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) all += area(scene, t);
+    const float outward = outwardSign(scene);
     const double part = all / static_cast<double>(patches.size());
     double passed = 0;
     std::uint32_t next = 0;
@@ -73,6 +92,7 @@ ObjectModel::ObjectModel(Scene scene) {
     emits_ = hasEmitter(scene);
     mirrors_ = hasMirror(scene);
     base_ = std::make_unique<const ObjectMesh>(std::move(scene));
+    convex_ = base_->closed && isConvex(base_->scene, bounds_.radius);
 }
 
 const ObjectMesh& ObjectModel::mesh(int subdivision) const {

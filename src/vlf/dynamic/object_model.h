@@ -48,6 +48,9 @@ class ObjectModel {
     const std::array<SurfacePatch, kPatches>& patches() const { return patches_; }
     float patchArea() const { return patchArea_; }  ///< m²
 
+    /// Closed, and no part of it hides another that faces the same way.
+    bool convex() const { return convex_; }
+
     bool emits() const { return emits_; }
     bool mirrors() const { return mirrors_; }
 
@@ -60,7 +63,7 @@ class ObjectModel {
     Sphere bounds_;
     std::array<SurfacePatch, kPatches> patches_;
     float patchArea_ = 0;
-    bool emits_ = false, mirrors_ = false;
+    bool convex_ = false, emits_ = false, mirrors_ = false;
     mutable std::mutex mutex_;
     mutable std::array<std::unique_ptr<const ObjectMesh>, kMaxSubdivision> subdivided_;
 };

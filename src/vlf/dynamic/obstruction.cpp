@@ -109,6 +109,17 @@ ShadowCaster casterOf(const ObjectModel& model, const Pose& pose) {
     return {&model, pose, {pose.point(model.bounds().centre), pose.scale * model.bounds().radius}};
 }
 
+Vec3 Obstructions::reflectAt(std::uint32_t mirror, const Vec3& place) const {
+    const Vec3& n = room_.unwrap.charts[mirror].normal;
+    return place - 2 * (glm::dot(n, place) - room_.sources.mirrorOffset[mirror]) * n;
+}
+
+Vec3 Obstructions::unfold(Vec3 place, std::size_t image, int segment) const {
+    const LightImage& of = room_.sources.images[image];
+    for (int k = segment - 1; k >= 0; --k) place = reflectAt(of.mirror[k], place);
+    return place;
+}
+
 Vec3 Obstructions::unfoldDirection(Vec3 direction, std::size_t image, int segment) const {
     const LightImage& of = room_.sources.images[image];
     for (int k = segment - 1; k >= 0; --k)
@@ -116,13 +127,17 @@ Vec3 Obstructions::unfoldDirection(Vec3 direction, std::size_t image, int segmen
     return direction;
 }
 
-Vec3 Obstructions::unfold(Vec3 place, std::size_t image, int segment) const {
+Vec3 Obstructions::fold(Vec3 place, std::size_t image, int segment) const {
     const LightImage& of = room_.sources.images[image];
-    for (int k = segment - 1; k >= 0; --k) {
-        const Vec3& n = room_.unwrap.charts[of.mirror[k]].normal;
-        place -= 2 * (glm::dot(n, place) - room_.sources.mirrorOffset[of.mirror[k]]) * n;
-    }
+    for (int k = 0; k < segment; ++k) place = reflectAt(of.mirror[k], place);
     return place;
+}
+
+Vec3 Obstructions::foldDirection(Vec3 direction, std::size_t image, int segment) const {
+    const LightImage& of = room_.sources.images[image];
+    for (int k = 0; k < segment; ++k)
+        direction = glm::reflect(direction, room_.unwrap.charts[of.mirror[k]].normal);
+    return direction;
 }
 
 void Obstructions::place(std::span<const ShadowCaster> objects) {
@@ -172,19 +187,24 @@ bool Obstructions::mayShadow(const LightReceiver& receiver) const {
     return false;
 }
 
-/// At distance d from the object a penumbra is d times as wide as the light looks.
-bool Obstructions::areSmooth(const LightReceiver& receiver) const {
-    for (std::size_t i = 0; i < all_.size(); ++i) {
-        const Sphere& light = all_[i].light;
-        const float lightDistance = glm::distance(receiver.centre, light.centre);
-        for (const Obstruction::Object& object : all_[i].objects) {
-            const float distance = glm::distance(receiver.centre, object.sphere.centre);
-            if (distance * light.radius <= receiver.radius * lightDistance &&
-                mayHide(receiver, i, object) && maySee(receiver, i))
-                return false;
-        }
+void Obstructions::findShadows(const LightReceiver& receiver, std::vector<MayHide>& found) const {
+    found.clear();
+    for (std::uint32_t i = 0; i < all_.size(); ++i) {
+        const std::size_t before = found.size();
+        for (const Obstruction::Object& object : all_[i].objects)
+            if (mayHide(receiver, i, object)) found.push_back({i, &object});
+        if (found.size() > before && !maySee(receiver, i)) found.resize(before);
     }
-    return true;
+}
+
+/// At distance d from the object a penumbra is d times as wide as the light looks.
+bool Obstructions::areSmooth(const LightReceiver& receiver,
+                             std::span<const MayHide> shadows) const {
+    return std::ranges::all_of(shadows, [&](const MayHide& shadow) {
+        const Sphere& light = all_[shadow.image].light;
+        return glm::distance(receiver.centre, shadow.object->sphere.centre) * light.radius >
+               receiver.radius * glm::distance(receiver.centre, light.centre);
+    });
 }
 
 LightReceiver Obstructions::receiverOf(const TexelGroup& group) const {

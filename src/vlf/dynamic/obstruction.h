@@ -57,6 +57,12 @@ struct Obstruction {
     std::vector<Object> objects;
 };
 
+/// An object that may hide a part of an image.
+struct MayHide {
+    std::uint32_t image;
+    const Obstruction::Object* object;
+};
+
 class Obstructions {
   public:
     /// Of no objects. What it refers to must outlive it.
@@ -65,10 +71,14 @@ class Obstructions {
     void place(std::span<const ShadowCaster> objects);
 
     const ShadowCaster& caster(std::uint32_t number) const { return casters_[number]; }
+    std::size_t casterCount() const { return casters_.size(); }
 
-    /// The image of a place, or of a direction, behind the first `segment` mirrors of an image.
+    /// The image of a place, or of a direction, behind the first `segment` mirrors of an image, and
+    /// what has its image there.
     Vec3 unfold(Vec3 place, std::size_t image, int segment) const;
     Vec3 unfoldDirection(Vec3 direction, std::size_t image, int segment) const;
+    Vec3 fold(Vec3 place, std::size_t image, int segment) const;
+    Vec3 foldDirection(Vec3 direction, std::size_t image, int segment) const;
 
     /// Of image i of the room's sources.
     const Obstruction& of(std::size_t i) const { return all_[i]; }
@@ -91,13 +101,18 @@ class Obstructions {
     /// Whether any object may take light from a part of the receiver.
     bool mayShadow(const LightReceiver& receiver) const;
 
-    /// Whether penumbrae are wider there than the receiver.
-    bool areSmooth(const LightReceiver& receiver) const;
+    /// All objects that may, and of which images.
+    void findShadows(const LightReceiver& receiver, std::vector<MayHide>& found) const;
+
+    /// Whether penumbrae, those found, are wider there than the receiver.
+    bool areSmooth(const LightReceiver& receiver, std::span<const MayHide> shadows) const;
 
     /// All texels of a group.
     LightReceiver receiverOf(const TexelGroup& group) const;
 
   private:
+    Vec3 reflectAt(std::uint32_t mirror, const Vec3& place) const;
+
     const RoomTexels& room_;
     LightGatherer gatherer_;
     std::vector<Obstruction> all_;

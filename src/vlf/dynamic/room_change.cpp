@@ -99,21 +99,21 @@ void RoomChange::findCorners() {
     find(room_.groupLattice, groups_, groupCorners_);
 }
 
-/// Of the block in row `v` and column `u` of a group.
-RoomChange::EvenChange RoomChange::evenChangeIn(std::uint32_t group, int u, int v) const {
-    std::array<Vec3, 4> c;
-    const auto& ofBlock = room_.blockLattice.cornersOf[4 * group + 2 * v + u];
+/// Of a group's blocks, by rows.
+std::array<RoomChange::EvenChange, 4> RoomChange::evenChangeIn(std::uint32_t group) const {
+    std::array<Vec3, 9> c;  // at the corners of the blocks, by rows
     const auto& ofGroup = room_.groupLattice.cornersOf[group];
-    for (int k = 0; k < 4; ++k) {
-        const float x = 0.5f * static_cast<float>(u + (k & 1));
-        const float y = 0.5f * static_cast<float>(v + (k >> 1));
-        const Vec3 low =
-            groupCorners_[ofGroup[0]] + x * (groupCorners_[ofGroup[1]] - groupCorners_[ofGroup[0]]);
-        const Vec3 high =
-            groupCorners_[ofGroup[2]] + x * (groupCorners_[ofGroup[3]] - groupCorners_[ofGroup[2]]);
-        c[k] = all_ + low + y * (high - low) + blockCorners_[ofBlock[k]];
+    c[0] = all_ + groupCorners_[ofGroup[0]], c[2] = all_ + groupCorners_[ofGroup[1]];
+    c[6] = all_ + groupCorners_[ofGroup[2]], c[8] = all_ + groupCorners_[ofGroup[3]];
+    c[1] = 0.5f * (c[0] + c[2]), c[7] = 0.5f * (c[6] + c[8]);
+    for (int i = 3; i < 6; ++i) c[i] = 0.5f * (c[i - 3] + c[i + 3]);
+    const std::array<std::uint32_t, 4>* ofBlocks = &room_.blockLattice.cornersOf[4 * group];
+    for (int i = 0; i < 9; ++i) {
+        const int x = i % 3, y = i / 3, u = x / 2, v = y / 2;
+        c[i] += blockCorners_[ofBlocks[2 * v + u][2 * (y - v) + x - u]];
     }
-    return {c[0], c[1], c[2], c[3]};
+    return {EvenChange{c[0], c[1], c[3], c[4]}, EvenChange{c[1], c[2], c[4], c[5]},
+            EvenChange{c[3], c[4], c[6], c[7]}, EvenChange{c[4], c[5], c[7], c[8]}};
 }
 
 /// Calls write(first, irradiance) for all covered texels, irradiance being `own` with the change of
@@ -129,9 +129,7 @@ void RoomChange::forTexels(const IrradianceAtlas& own, Write write) const {
     }
     parallelFor(room_.groups.size(), kGroupsPerBlock, [&](std::size_t g) {
         const TexelGroup& group = room_.groups[g];
-        const auto number = static_cast<std::uint32_t>(g);
-        const std::array even{evenChangeIn(number, 0, 0), evenChangeIn(number, 1, 0),
-                              evenChangeIn(number, 0, 1), evenChangeIn(number, 1, 1)};
+        const auto even = evenChangeIn(static_cast<std::uint32_t>(g));
         if (group.count == kSide * kSide && group.open) return forRows(own, group, even, write);
         for (std::uint32_t i = group.first; i < group.first + group.count; ++i) {
             const std::uint32_t t = room_.unwrap.texels[room_.grouped[i]];
@@ -148,6 +146,8 @@ void RoomChange::forTexels(const IrradianceAtlas& own, Write write) const {
 template <class Write>
 void RoomChange::forRows(const IrradianceAtlas& own, const TexelGroup& group,
                          const std::array<EvenChange, 4>& even, Write write) const {
+    static constexpr std::array<float, 3 * kSide> kNone{};
+    const bool varies = variesIn(room_.groupOf[group.corner]);
     for (int half = 0; half < 2; ++half) {
         std::array<Vec3, kSide> start, step;
         for (int u = 0; u < kSide; ++u) {
@@ -158,8 +158,8 @@ void RoomChange::forRows(const IrradianceAtlas& own, const TexelGroup& group,
         for (int v = 0; v < kHalf; ++v) {
             const std::uint32_t first = group.corner + (half * kHalf + v) * room_.unwrap.atlasWidth;
             std::array<Vec3, kSide> row;
-            addRow(&own.irradiance[first].x, &change_[first].x, &start[0].x, &step[0].x,
-                   static_cast<float>(v), &row[0].x);
+            addRow(&own.irradiance[first].x, varies ? &change_[first].x : kNone.data(), &start[0].x,
+                   &step[0].x, static_cast<float>(v), &row[0].x);
             write(first, row);
         }
     }

@@ -67,7 +67,7 @@ class RoomChange {
 
     bool empty() const { return texels_.empty() && !everywhere_; }
     void findCorners();
-    EvenChange evenChangeIn(std::uint32_t group, int u, int v) const;
+    std::array<EvenChange, 4> evenChangeIn(std::uint32_t group) const;
     template <class Write>
     void forTexels(const IrradianceAtlas& own, Write write) const;
     template <class Write>

@@ -101,8 +101,10 @@ void groupTexels(const Scene& scene, RoomTexels& room) {
         room.groups[room.groupOf[texel]].corner = texel - x % kSide - y % kSide * unwrap.atlasWidth;
         room.placeOf[texel] = static_cast<std::uint8_t>(x % kSide | y % kSide << 3);
         const std::uint32_t c = unwrap.texelChart[i];
-        groups.try_emplace(CellPlace(c, x / kSide, y / kSide), room.groupOf[texel]);
-        blocks.try_emplace(CellPlace(c, x / kHalf, y / kHalf), room.blockOf[texel]);
+        const std::uint32_t group = room.groupOf[texel], u = x / kSide, v = y / kSide;
+        if (!groups.try_emplace(CellPlace(c, u, v), group).second) continue;
+        for (std::uint32_t k = 0; k < 4; ++k)
+            blocks.try_emplace(CellPlace(c, 2 * u + k % 2, 2 * v + k / 2), 4 * group + k);
     }
     std::vector<float> groupAreas;
     for (const TexelGroup& group : room.groups) groupAreas.push_back(group.area);
@@ -110,21 +112,23 @@ void groupTexels(const Scene& scene, RoomTexels& room) {
     room.blockLattice = makeLattice(blocks, room.blockArea);
 }
 
-/// Something is close above one of their points.
-void findHidden(const Scene& scene, const RayScene& rays, RoomTexels& room) {
+/// Their places; something is close above those of hidden ones.
+void findPlaces(const Scene& scene, const RayScene& rays, RoomTexels& room) {
     constexpr float kGap = 0.25f;  // of a texel's width
     const Unwrap& unwrap = room.unwrap;
     room.hidden.assign(unwrap.atlasSize(), 0);
+    room.place.assign(unwrap.atlasSize(), Vec3(0));
     parallelFor(unwrap.texels.size(), 512, [&](std::size_t i) {
         const auto points = unwrap.points.of(i);
         const SurfacePoint& p = points[points.size() / 2];
+        const Vec3 place = positionAt(scene, p.triangle, p.barycentric);
+        room.place[unwrap.texels[i]] = place;
         const RoomTriangle& triangle = room.triangles[p.triangle];
         const bool front = triangle.charts.front == unwrap.texelChart[i];
         const Vec3 normal = glm::normalize(front ? triangle.areaVector : -triangle.areaVector);
         const float reach = kGap * unwrap.charts[unwrap.texelChart[i]].texelSize();
         room.hidden[unwrap.texels[i]] =
-            rays.occluded({positionAt(scene, p.triangle, p.barycentric) + rays.epsilon() * normal,
-                           normal, 0, reach});
+            rays.occluded({place + rays.epsilon() * normal, normal, 0, reach});
     });
 }
 
@@ -163,7 +167,7 @@ RoomTexels makeRoomTexels(const Scene& scene, const RayScene& rays, const LightF
     parallelFor(unwrap.charts.size(), 16, [&](std::size_t c) {
         spreadOverChart(unwrap.charts[c], unwrap.atlasWidth, kNoTexel, room.source);
     });
-    findHidden(scene, rays, room);
+    findPlaces(scene, rays, room);
     groupTexels(scene, room);
     for (const std::uint32_t t : unwrap.texels) {
         room.meanReflectance += room.area[t] * room.reflectance[t];

@@ -58,6 +58,7 @@ struct RoomTexels {
     std::vector<std::uint32_t> source;   ///< the covered texel of the same chart that stands for a
                                          ///< texel, itself if it is covered; kNoTexel: none
     std::vector<std::uint8_t> excluded;  ///< 1: within a solid or cut by a wall: not to be seen
+    std::vector<Vec3> place;             ///< of covered texels: a point in their middle
     std::vector<std::uint8_t> hidden;    ///< 1: in a gap narrower than a quarter of a texel, which
                                          ///< what comes to blocks and groups does not enter
     std::vector<Vec3> reflectance;       ///< diffuse, of covered texels

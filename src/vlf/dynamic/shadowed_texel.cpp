@@ -26,12 +26,13 @@ float solidAngleOf(const Vec3& point, const Sphere& sphere) {
 
 ShadowedTexel::ShadowedTexel(const Scene& scene, const RayScene& rays, const RoomTexels& room,
                              const RayInstances& casters, const Obstructions& obstructions,
-                             const ShadowSampling& sampling)
+                             std::span<const MayHide> shadows, const ShadowSampling& sampling)
     : scene_(scene),
       rays_(rays),
       room_(room),
       casters_(casters),
       obstructions_(obstructions),
+      shadows_(shadows),
       sampling_(sampling),
       gatherer_(scene, rays, room.unwrap, room.sources, 0) {
     gatherer_.setExtraOccluder(occluderOf(casters));
@@ -62,36 +63,46 @@ void ShadowedTexel::sort(const LightReceiver& receiver) {
     memory_.sampled.assign(obstructions_.size(), 0);
     memory_.spots.clear();
     anySampled_ = false;
-    for (std::uint32_t i = 0; i < obstructions_.size(); ++i) {
-        const LightImage& image = room_.sources.images[i];
-        const Light& light = room_.sources.lights[image.light];
-        float effect = -1;  // not known yet
-        const Vec3 way = obstructions_.of(i).light.centre - receiver.centre;
-        const float seen = light.area / std::max(glm::dot(way, way), 1e-20f);
-        const float radiance = luminance(light.radiance * image.throughput);
-        const std::size_t before = memory_.spots.size();
-        for (const Obstruction::Object& object : obstructions_.of(i).objects) {
-            if (!obstructions_.mayHide(receiver, i, object)) continue;
-            if (effect < 0) effect = gatherer_.likelyEffect(receiver, image);
-            if (effect <= kNothing * sampling_.slight) break;
-            const float angle = solidAngleOf(receiver.centre, object.sphere);
-            const bool larger = light.kind == LightKind::surface && seen > kLarger * angle;
-            const float taken = larger ? std::min(effect, radiance * angle) : effect;
-            if (taken <= kNothing * sampling_.slight) continue;
-            if (!larger) {
-                memory_.sampled[i] = anySampled_ = true;
-                break;
-            }
-            memory_.spots.push_back({i, &object, stepFor(taken)});
+    for (std::size_t first = 0, end = 0; first < shadows_.size(); first = end) {
+        while (end < shadows_.size() && shadows_[end].image == shadows_[first].image) ++end;
+        sort(receiver, shadows_.subspan(first, end - first));
+    }
+}
+
+void ShadowedTexel::sort(const LightReceiver& receiver, std::span<const MayHide> ofImage) {
+    const std::uint32_t i = ofImage[0].image;
+    const LightImage& image = room_.sources.images[i];
+    const Light& light = room_.sources.lights[image.light];
+    float effect = -1;  // not known yet
+    const Vec3 way = obstructions_.of(i).light.centre - receiver.centre;
+    const float seen = light.area / std::max(glm::dot(way, way), 1e-20f);
+    const float radiance = luminance(light.radiance * image.throughput);
+    const std::size_t before = memory_.spots.size();
+    for (const MayHide& shadow : ofImage) {
+        const Obstruction::Object& object = *shadow.object;
+        if (!obstructions_.mayHide(receiver, i, object)) continue;
+        if (effect < 0) effect = gatherer_.likelyEffect(receiver, image);
+        if (effect <= kNothing * sampling_.slight) return;
+        const float angle = solidAngleOf(receiver.centre, object.sphere);
+        const bool larger = light.kind == LightKind::surface && seen > kLarger * angle;
+        const float taken = larger ? std::min(effect, radiance * angle) : effect;
+        if (taken <= kNothing * sampling_.slight) continue;
+        if (!larger) {
+            memory_.sampled[i] = anySampled_ = true;
+            memory_.spots.resize(before);
+            return;
         }
-        if (memory_.sampled[i]) memory_.spots.resize(before);
+        memory_.spots.push_back({i, &object, stepFor(taken)});
     }
 }
 
 void ShadowedTexel::findPoints(const LightReceiver& r) {
     memory_.points.clear();
+    std::uint32_t triangle = kNoTriangle;
+    Vec3 geometric(0);
     for (const SurfacePoint& p : r.points) {
-        const Vec3 geometric = r.side * geometricNormal(*r.scene, p.triangle);
+        if (p.triangle != triangle) geometric = r.side * geometricNormal(*r.scene, p.triangle);
+        triangle = p.triangle;
         const Vec3 shading = shadingNormalAt(*r.scene, p.triangle, p.barycentric);
         memory_.points.push_back({positionAt(*r.scene, p.triangle, p.barycentric),
                                   glm::dot(shading, geometric) < 0 ? -shading : shading,
@@ -99,14 +110,25 @@ void ShadowedTexel::findPoints(const LightReceiver& r) {
     }
 }
 
-/// Irradiance from an image that an object hides.
+/// Irradiance from an image that an object hides: what it would send along all looks without the
+/// object, which is met on the way between the right mirrors; black where another light or another
+/// object is met before.
 Vec3 ShadowedTexel::behind(const Spot& spot) {
+    const LightImage& image = room_.sources.images[spot.image];
     aim(spot);
     keepThoseThatMeet(spot);
-    if (room_.sources.images[spot.image].depth == 0 && !rays_.hasPanes())
-        return emissionStraight(spot);
+    for (int k = 0; k < image.depth; ++k) reflect(spot, k);
+    if (image.depth == 0 && rays_.hasPanes())
+        findHitsBehindPanes();
+    else
+        findHits();
     Vec3 sum(0);
-    for (const Look& look : memory_.looks) sum += look.weight * emissionAlong(look, spot);
+    for (std::size_t k = 0; k < memory_.looks.size(); ++k) {
+        const Look& look = memory_.looks[k];
+        const Hit& hit = memory_.roomHits[k];
+        if (hit && (image.depth > spot.object->segment || look.met <= hit.t))
+            sum += look.weight * look.throughput * emissionAt(hit, look.ray.direction, image.light);
+    }
     return sum;
 }
 
@@ -120,106 +142,116 @@ void ShadowedTexel::aim(const Spot& spot) {
     const float area = caster.model->patchArea() * caster.pose.scale * caster.pose.scale *
                        static_cast<float>(spot.step);
     const bool closed = caster.model->mesh().closed;
+    const auto points = foldedPoints(spot);
     memory_.looks.clear();
-    for (std::size_t k = step / 2; k < patches.size(); k += step) {
-        const Point& p = memory_.points[k % memory_.points.size()];
-        const Vec3 way =
-            obstructions_.unfold(patches[k].position, spot.image, segment) - p.position;
-        const float distance = glm::length(way);
-        const Vec3 direction = way / distance;
-        const float cosine = glm::dot(p.shading, direction);
-        if (!(cosine > 0) || glm::dot(p.geometric, direction) <= 0) continue;
-        float facing = -glm::dot(
-            direction, obstructions_.unfoldDirection(patches[k].normal, spot.image, segment));
+    std::size_t at = 0;
+    for (std::size_t k = step / 2; k < patches.size(); k += step, ++at) {
+        if (at == points.size()) at = 0;
+        const Point& p = points[at];
+        const Vec3 way = patches[k].position - p.position;
+        float facing = -glm::dot(way, patches[k].normal);
         if (!closed) facing = std::abs(facing);
-        if (!(facing > 0)) continue;
-        const Ray ray{p.position + rays_.epsilon() * p.geometric, direction};
+        const float above = glm::dot(p.shading, way);
+        if (!(facing > 0) || !(above > 0) || glm::dot(p.geometric, way) <= 0) continue;
+        const float squared = glm::dot(way, way), distance = std::sqrt(squared);
+        const Point& real = memory_.points[at];
+        const Ray ray{real.position + rays_.epsilon() * real.geometric,
+                      obstructions_.unfoldDirection(way / distance, spot.image, segment)};
         if (!plane.mayBeMet(ray, distance)) continue;
         memory_.looks.push_back(
             {ray,
-             cosine / receiverLobe(p.shading, p.geometric) * facing * area / (distance * distance),
+             above * facing * area / (receiverLobe(p.shading, p.geometric) * squared * squared),
              distance});
     }
 }
 
+/// The texel's points as the object has them before it, behind mirrors or not.
+std::span<const ShadowedTexel::Point> ShadowedTexel::foldedPoints(const Spot& spot) {
+    const int segment = spot.object->segment;
+    if (segment == 0) return memory_.points;
+    memory_.folded.clear();
+    for (const Point& p : memory_.points)
+        memory_.folded.push_back({obstructions_.fold(p.position, spot.image, segment),
+                                  obstructions_.foldDirection(p.shading, spot.image, segment),
+                                  obstructions_.foldDirection(p.geometric, spot.image, segment)});
+    return memory_.folded;
+}
+
 /// Their patch, and nothing else of the objects before it; from where it is seen behind mirrors.
 void ShadowedTexel::keepThoseThatMeet(const Spot& spot) {
-    const LightImage& image = room_.sources.images[spot.image];
+    const int segment = spot.object->segment;
+    if (obstructions_.casterCount() == 1 && obstructions_.caster(0).model->convex()) return;
     memory_.queue.clear();
-    for (const Look& look : memory_.looks) {
-        memory_.queue.push_back(look.ray);
-        Ray& ray = memory_.queue.back();
-        for (int k = 0; k < spot.object->segment; ++k) {
-            const Vec3& n = room_.unwrap.charts[image.mirror[k]].normal;
-            const float offset = room_.sources.mirrorOffset[image.mirror[k]];
-            ray.origin -= 2 * (glm::dot(n, ray.origin) - offset) * n;
-            ray.direction = glm::reflect(ray.direction, n);
-        }
-    }
+    for (const Look& look : memory_.looks)
+        memory_.queue.push_back(
+            {obstructions_.fold(look.ray.origin, spot.image, segment),
+             obstructions_.foldDirection(look.ray.direction, spot.image, segment)});
     memory_.hits.resize(memory_.queue.size());
     casters_.closest(memory_.queue, memory_.hits);
-    const float reach = spot.object->sphere.radius;
-    std::size_t kept = 0;
-    for (std::size_t k = 0; k < memory_.looks.size(); ++k) {
+    const float reach = kSameDistance * spot.object->sphere.radius + 4 * rays_.epsilon();
+    keepLooks([&](const Look& look, std::size_t k) {
         const InstanceHit& found = memory_.hits[k];
-        const Look& look = memory_.looks[k];
-        if (found && found.instance == spot.object->number &&
-            std::abs(found.hit.t - look.met) < kSameDistance * reach + 4 * rays_.epsilon())
-            memory_.looks[kept++] = look;
-    }
+        return found && found.instance == spot.object->number &&
+               std::abs(found.hit.t - look.met) < reach;
+    });
+}
+
+/// Of the looks those for which keep(look, number) is true.
+template <class Keep>
+void ShadowedTexel::keepLooks(Keep keep) {
+    std::size_t kept = 0;
+    for (std::size_t k = 0; k < memory_.looks.size(); ++k)
+        if (keep(memory_.looks[k], k)) memory_.looks[kept++] = memory_.looks[k];
     memory_.looks.resize(kept);
 }
 
-/// What an emitter would send along all looks without the object.
-Vec3 ShadowedTexel::emissionStraight(const Spot& spot) {
+/// What they meet of the room.
+void ShadowedTexel::findHits() {
     memory_.queue.clear();
     for (const Look& look : memory_.looks) memory_.queue.push_back(look.ray);
     memory_.roomHits.resize(memory_.queue.size());
     rays_.closest(memory_.queue, memory_.roomHits);
-    const std::uint32_t light = room_.sources.images[spot.image].light;
-    Vec3 sum(0);
-    for (std::size_t k = 0; k < memory_.looks.size(); ++k) {
-        const Hit& hit = memory_.roomHits[k];
-        if (hit && memory_.looks[k].met < hit.t)
-            sum += memory_.looks[k].weight * emissionAt(hit, memory_.queue[k].direction, light);
-    }
-    return sum;
 }
 
-/// What the image would send along it without the object, which is met on the way between the
-/// right mirrors; black where another light or another object is met before.
-Vec3 ShadowedTexel::emissionAlong(const Look& look, const Spot& spot) const {
-    const LightImage& image = room_.sources.images[spot.image];
-    Ray ray = look.ray;
-    float travelled = 0;
-    Vec3 throughput(1);
-    for (int k = 0; k < image.depth; ++k) {
-        const Hit hit = rays_.closest(ray);
-        if (!hit) return Vec3(0);
-        const Vec3 n = geometricNormal(scene_, hit.triangle);
-        const bool front = glm::dot(n, ray.direction) < 0;
-        const TriangleCharts& charts = room_.triangles[hit.triangle].charts;
-        if ((front ? charts.front : charts.back) != image.mirror[k]) return Vec3(0);
-        travelled += hit.t;
-        if (k == spot.object->segment && look.met > travelled) return Vec3(0);
-        ray.tMax = hit.t;
-        if (k < spot.object->segment && casters_.occluded(ray)) return Vec3(0);
-        throughput *= mirrorReflectance(scene_, scene_.material(hit.triangle),
-                                        uvAt(scene_, hit.triangle, hit.barycentric));
-        const Vec3 side = front ? n : -n;
-        ray = {positionAt(scene_, hit.triangle, hit.barycentric) + rays_.epsilon() * side,
-               glm::reflect(ray.direction, n)};
+void ShadowedTexel::findHitsBehindPanes() {
+    memory_.roomHits.clear();
+    for (Look& look : memory_.looks) {
+        Transmittance passed;
+        memory_.roomHits.push_back(rays_.closestBehindPanes(look.ray, passed));
+        look.throughput *= passed.colour;
     }
-    Transmittance passed;
-    const Hit hit = image.depth == 0 ? rays_.closestBehindPanes(ray, passed) : rays_.closest(ray);
-    if (!hit || (image.depth == spot.object->segment && look.met > travelled + hit.t))
-        return Vec3(0);
-    return throughput * passed.colour * emissionAt(hit, ray.direction, image.light);
+}
+
+/// Goes on with those that meet a mirror of the image, behind the object if that is before it.
+void ShadowedTexel::reflect(const Spot& spot, int mirror) {
+    const std::uint32_t chart = room_.sources.images[spot.image].mirror[mirror];
+    const int segment = spot.object->segment;
+    findHits();
+    for (std::size_t k = 0; k < memory_.queue.size(); ++k)
+        memory_.queue[k].tMax = memory_.roomHits[k].t;
+    memory_.blocked.assign(memory_.queue.size(), 0);
+    if (mirror < segment) casters_.occluded(memory_.queue, memory_.blocked);
+    keepLooks([&](Look& look, std::size_t k) {
+        const Hit& hit = memory_.roomHits[k];
+        if (!hit || memory_.blocked[k] || (mirror == segment && look.met > hit.t)) return false;
+        const Vec3 n = geometricNormal(scene_, hit.triangle);
+        const bool front = glm::dot(n, look.ray.direction) < 0;
+        const TriangleCharts& charts = room_.triangles[hit.triangle].charts;
+        if ((front ? charts.front : charts.back) != chart) return false;
+        look.met -= hit.t;
+        look.throughput *= mirrorReflectance(scene_, scene_.material(hit.triangle),
+                                             uvAt(scene_, hit.triangle, hit.barycentric));
+        look.ray = {
+            positionAt(scene_, hit.triangle, hit.barycentric) + rays_.epsilon() * (front ? n : -n),
+            glm::reflect(look.ray.direction, n)};
+        return true;
+    });
 }
 
 Vec3 ShadowedTexel::emissionAt(const Hit& hit, const Vec3& direction, std::uint32_t light) const {
-    if (room_.triangles[hit.triangle].light != light) return Vec3(0);
-    const bool front = glm::dot(geometricNormal(scene_, hit.triangle), direction) < 0;
+    const RoomTriangle& triangle = room_.triangles[hit.triangle];
+    if (triangle.light != light) return Vec3(0);
+    const bool front = glm::dot(triangle.areaVector, direction) < 0;
     if (front != room_.sources.lights[light].front) return Vec3(0);
     return emittedRadiance(scene_, scene_.material(hit.triangle),
                            uvAt(scene_, hit.triangle, hit.barycentric));

@@ -16,13 +16,14 @@ struct ShadowSampling {
     float slight = 0;  ///< luminance, W·m⁻²: an error that does not matter
 };
 
-/// One for each thread. Refers to what it is given.
+/// Of texels that lie together. One for each thread. Refers to what it is given.
 class ShadowedTexel {
   public:
-    /// `casters` are the objects that stand in `obstructions`.
+    /// `casters` are the objects that stand in `obstructions`, `shadows` those that may hide
+    /// something from one of the texels, image by image.
     ShadowedTexel(const Scene& scene, const RayScene& rays, const RoomTexels& room,
                   const RayInstances& casters, const Obstructions& obstructions,
-                  const ShadowSampling& sampling);
+                  std::span<const MayHide> shadows, const ShadowSampling& sampling);
 
     /// Irradiance, W·m⁻² >= 0.
     Vec3 loss(const LightReceiver& receiver);
@@ -41,17 +42,23 @@ class ShadowedTexel {
     struct Look {
         Ray ray;
         float weight;
-        float met;  ///< distance of the object
+        float met;           ///< distance of the object
+        Vec3 throughput{1};  ///< of the mirrors that it has met
     };
 
     int stepFor(float taken) const;
     void sort(const LightReceiver& receiver);
+    void sort(const LightReceiver& receiver, std::span<const MayHide> ofImage);
     void findPoints(const LightReceiver& receiver);
     Vec3 behind(const Spot& spot);
+    std::span<const Point> foldedPoints(const Spot& spot);
     void aim(const Spot& spot);
     void keepThoseThatMeet(const Spot& spot);
-    Vec3 emissionStraight(const Spot& spot);
-    Vec3 emissionAlong(const Look& look, const Spot& spot) const;
+    void reflect(const Spot& spot, int mirror);
+    void findHits();
+    void findHitsBehindPanes();
+    template <class Keep>
+    void keepLooks(Keep keep);
     Vec3 emissionAt(const Hit& hit, const Vec3& direction, std::uint32_t light) const;
 
     const Scene& scene_;
@@ -59,6 +66,7 @@ class ShadowedTexel {
     const RoomTexels& room_;
     const RayInstances& casters_;
     const Obstructions& obstructions_;
+    std::span<const MayHide> shadows_;
     ShadowSampling sampling_;
     LightGatherer gatherer_;
     bool anySampled_ = false;
@@ -66,10 +74,12 @@ class ShadowedTexel {
         std::vector<std::uint8_t> sampled;  ///< by image
         std::vector<Spot> spots;
         std::vector<Point> points;  ///< of the texel
+        std::vector<Point> folded;
         std::vector<Look> looks;
         std::vector<Ray> queue;
         std::vector<InstanceHit> hits;
         std::vector<Hit> roomHits;
+        std::vector<std::uint8_t> blocked;
     };
     Memory memory_;  ///< the thread's during loss()
 };

@@ -64,8 +64,10 @@ const TexelLoss& SoftShadows::find(const Coverage& coverage, const RayInstances&
         parts_[g].clear();
         const TexelGroup& group = room_.groups[g];
         const LightReceiver all = obstructions_.receiverOf(group);
-        if (!obstructions_.mayShadow(all)) return;
-        ShadowedTexel texel(scene_, rays_, room_, rays, obstructions_, {samples, slight});
+        thread_local std::vector<MayHide> shadows;
+        obstructions_.findShadows(all, shadows);
+        if (shadows.empty()) return;
+        ShadowedTexel texel(scene_, rays_, room_, rays, obstructions_, shadows, {samples, slight});
         const auto find = [&](std::uint32_t entry) {
             LightReceiver receiver = texelReceiver(scene_, room_.unwrap, entry);
             receiver.points = coverage.points(room_, entry);
@@ -74,7 +76,7 @@ const TexelLoss& SoftShadows::find(const Coverage& coverage, const RayInstances&
         const auto keep = [&](std::uint32_t t, const Vec3& loss) {
             if (loss != Vec3(0)) parts_[g].emplace_back(room_.entryOf[t], loss);
         };
-        if (obstructions_.areSmooth(all)) {
+        if (obstructions_.areSmooth(all, shadows)) {
             thread_local std::vector<SurfacePoint> points;
             spreadPoints(room_, group, points);
             LightReceiver whole = texelReceiver(scene_, room_.unwrap, room_.grouped[group.first]);

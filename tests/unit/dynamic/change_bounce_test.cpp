@@ -38,8 +38,7 @@ class BouncingChange : public testing::Test {
         instances.place(objects);
         const std::vector<Sphere> spheres(objects.size(), Sphere{Vec3(0.5f), 1});
         ChangeBounce bounce;
-        bounce.find(change, raysOf(lit), room, coverage, {lit.scene, instances, spheres},
-                    room.totalArea);
+        bounce.find(change, raysOf(lit), room, coverage, {instances, spheres}, room.totalArea);
         RoomChange result(room);
         bounce.addTo(result, 0);
         IrradianceAtlas own = lit.field.atlas, light = own;

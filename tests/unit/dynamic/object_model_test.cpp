@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -24,6 +25,17 @@ TEST(ObjectModel, AMeshWithoutATriangleIsOpen) {
     Scene cube = makePrimitive("cube", {});
     cube.triangles.pop_back();
     EXPECT_FALSE(ObjectModel(cube).mesh().closed);
+}
+
+TEST(ObjectModel, IsConvexWhereNoPartHidesAnother) {
+    EXPECT_TRUE(ObjectModel(makePrimitive("cube", {})).convex());
+    EXPECT_TRUE(ObjectModel(makePrimitive("sphere", {})).convex());
+    EXPECT_FALSE(ObjectModel(makePrimitive("knot", {})).convex());
+    Scene cube = makePrimitive("cube", {});
+    for (Triangle& t : cube.triangles) std::swap(t.vertex[0], t.vertex[1]);
+    EXPECT_TRUE(ObjectModel(cube).convex());  // inside out
+    cube.triangles.pop_back();
+    EXPECT_FALSE(ObjectModel(cube).convex());
 }
 
 TEST(ObjectModel, SubdivisionKeepsTheSurface) {
