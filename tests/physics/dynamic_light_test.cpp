@@ -59,6 +59,13 @@ TEST(DynamicLight, OnACubeInTheShadowOfAnotherIsAsTraced) {
     expectFacesAsTraced(filled.room, all, 0.05);
 }
 
+TEST(DynamicLight, BetweenTwoOthersThatShadeTheFloorIsAsTraced) {
+    const FilledRoom filled(lampLit(), {finely(bodyAt("cube", {0.5f, 0.15f, 0.3f}, 0.3f)),
+                                        finely(bodyAt("cube", {1.34f, 0.15f, 0.3f}, 0.3f)),
+                                        finely(bodyAt("cube", {0.92f, 0.15f, 0.3f}, 0.3f))});
+    expectFacesAsTraced(filled.room, kSides, 0.07);
+}
+
 TEST(DynamicLight, WhereAnotherHidesTheLampFromMostOfTheRoomIsRoughlyAsTraced) {
     // Later bounces of so large a change are taken to be even all over the room.
     const FilledRoom filled(lampLit(),

@@ -73,7 +73,8 @@ void LightExchange::setRoomLight(const IrradianceAtlas& atlas) {
     roomRadiance_.assign(atlas.irradiance.size(), Vec3(0));
     for (const std::uint32_t t : texels_.unwrap.texels)
         roomRadiance_[t] = texels_.reflectance[t] * atlas.irradiance[t] / kPi;
-    radiance_ = roomRadiance_;
+    radiance_ = shadedRadiance_ = roomRadiance_;
+    shaded_.clear();
     meanIrradiance_ = mean(texels_, atlas);
     double flux = 0;
     for (const std::uint32_t t : texels_.unwrap.texels)
@@ -161,9 +162,21 @@ void LightExchange::findShadows() {
     sweep_->bounce(litRoom(), emitted_);
 }
 
-/// Objects that change the room's indirect light are lit by the room without it first, and then by
-/// what they and their shadows have made of it. Objects see one another, too: all are lit twice,
-/// first by others of which the light is but guessed.
+/// What the room sends if only its direct light is changed.
+void LightExchange::shadeRoom() {
+    for (const std::uint32_t t : shaded_) shadedRadiance_[t] = roomRadiance_[t];
+    shaded_.clear();
+    for (const TexelChange& t : shadows_) {
+        const Vec3 sent =
+            shadedRadiance_[t.texel] + texels_.reflectance[t.texel] * t.irradiance / kPi;
+        shadedRadiance_[t.texel] = glm::max(Vec3(0), sent);
+        shaded_.push_back(t.texel);
+    }
+}
+
+/// Objects that change the room's indirect light are lit by the room with their shadows first, and
+/// then by what they and these have made of it. Objects see one another, too: all are lit twice
+/// or more, first by others of which the light is but guessed.
 void LightExchange::exchange(const Surroundings& around) {
     const bool indirect = std::any_of(bodies_.begin(), bodies_.end(),
                                       [](const Body& body) { return body.light->changesRoom(); });
@@ -174,9 +187,11 @@ void LightExchange::exchange(const Surroundings& around) {
     for (const Body& body : bodies_)
         if (isDue(body)) body.light->guess(meanIrradiance_);
     if (indirect) {
+        shadeRoom();
         Surroundings alone = around;
-        alone.radiance = roomRadiance_;
+        alone.radiance = shadedRadiance_;
         findObjectLight(alone);
+        if (bodies_.size() > 1) findOthersLight(alone);
     }
     changeRoom(true);
     if (roomChanges_) change_.findRadiance(roomLight_, radiance_);

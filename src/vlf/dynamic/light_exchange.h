@@ -52,6 +52,7 @@ class LightExchange {
     void findPointLights();
     void findEmitters();
     void findShadows();
+    void shadeRoom();
     void exchange(const Surroundings& around);
     void changeRoom(bool bouncing);
     void findObjectLight(const Surroundings& around);
@@ -65,6 +66,8 @@ class LightExchange {
     IncidentLightFinder incident_;
     IrradianceAtlas roomLight_, light_;  ///< without objects and with them
     std::vector<Vec3> roomRadiance_, radiance_;
+    std::vector<Vec3> shadedRadiance_;   ///< of the room without direct light that objects block
+    std::vector<std::uint32_t> shaded_;  ///< texels where that is another
     Vec3 meanIrradiance_{0};
     float roomFlux_ = 0;  ///< that the texels send, of the brightest channel, W
     PointLighting points_;
