@@ -251,11 +251,15 @@ float LightGatherer::nearReach(const LightReceiver& r, const LightImage& image) 
     return isNear ? reach : 0;
 }
 
-/// Point j of n of the texel, stratified.
+/// The number of point j of n of the texel, stratified.
+std::size_t LightGatherer::pointNumber(const LightReceiver& r, int j, int n, float rotation) {
+    const auto stratum = static_cast<std::size_t>((j + rotation) / n * r.points.size());
+    return (stratum + r.key) % r.points.size();
+}
+
 LightGatherer::Point LightGatherer::pointOf(const LightReceiver& r, int j, int n,
                                             float rotation) const {
-    const auto stratum = static_cast<std::size_t>((j + rotation) / n * r.points.size());
-    return surfacePoint(r, (stratum + r.key) % r.points.size());
+    return surfacePoint(r, pointNumber(r, j, n, rotation));
 }
 
 /// What directions of the texel's points meet of the light within `reach`.
@@ -295,8 +299,11 @@ void LightGatherer::drawSamples(const LightReceiver& r, const LightImage& image,
     const float rotation = random.next();
     memory_.samples.clear();
     memory_.shadowRays.clear();
+    Point p{};
+    std::size_t number = r.points.size();  // of p; many samples start from the same
     for (int j = 0; j < n; ++j) {
-        const Point p = pointOf(r, j, n, rotation);
+        const std::size_t next = pointNumber(r, j, n, rotation);
+        if (next != number) p = surfacePoint(r, number = next);
         const LightSample s = sampleLight(scene_, light, r2Point(j, shift));
         if (glm::distance(p.position, s.point) < reach) continue;
         const float g =

@@ -112,6 +112,7 @@ class LightGatherer {
     float likelySky(const LightReceiver& r, const LightImage& image) const;
     bool mayBeSeenInMirror(const LightReceiver& r, const LightImage& image) const;
     Point surfacePoint(const LightReceiver& r, std::size_t i) const;
+    static std::size_t pointNumber(const LightReceiver& r, int j, int n, float rotation);
     Point pointOf(const LightReceiver& r, int j, int n, float rotation) const;
     DirectEstimate gather(const LightReceiver& r, const LightImage& image, int n,
                           RandomStream& random);
