@@ -59,9 +59,9 @@ def show(args, room, preset, files, truth, noise, folder):
         compare(vlf, picture, truth, folder, "--heatmap", heat)
         run(vlf, "-q", "render", field, *view_of(room, args.picture_size),
             "-o", args.pictures / f"{room['name']}-{preset}.png")
-    cpu = sum(s["cpuSeconds"] for s in report["stages"])
+    cpu, peak = sum(s["cpuSeconds"] for s in report["stages"]), report["peakMemoryMiB"]
     print(f"| {room['name']} | {preset} | {report['texels']} | {report['seconds']:.1f} | {cpu:.1f} | "
-          f"{report['peakMemoryMiB'] / 1024:.2f} GiB | {report['fileBytes'] / 1e6:.1f} MB | "
+          f"{peak / 1024:.2f} GiB, {100 * (report['predictedMemoryMiB'] / peak - 1):+.0f} % | {report['fileBytes'] / 1e6:.1f} MB | "
           f"{flip:.3f} | {noise:.3f} |", flush=True)
 
 
@@ -79,7 +79,7 @@ def main():
     args = parser.parse_args()
     if args.pictures:
         args.pictures.mkdir(parents=True, exist_ok=True)
-    print("| room | preset | texels | bake, s | CPU s | peak memory | file | FLIP | of the truth's noise |")
+    print("| room | preset | texels | bake, s | CPU s | peak memory, prediction | file | FLIP | of the truth's noise |")
     print("| --- | --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: |", flush=True)
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)

@@ -120,6 +120,30 @@ TEST(DynamicLight, OfAnObjectThatEmitsIsAbsorbedWhole) {
         << ratio.x << " " << ratio.y << " " << ratio.z;
 }
 
+TEST(DynamicLight, OfAnObjectThatEmitsIsThrownOnByMirrors) {
+    Scene scene = lampRoom(1, 0);
+    scene.materials[1].diffuse = Vec3(0);  // of the wall x = 0
+    scene.materials[1].mirror = Vec3(1, 1, 0.5f);
+    const BakedRoom mirrored(scene, 4000);
+    const RoomTexels all = makeRoomTexels(mirrored.scene, mirrored.rays, mirrored.field);
+    const Vec3 without = absorbedFlux(FilledRoom(mirrored, {}).room, all);
+    const FilledRoom filled(mirrored,
+                            {bodyAt("cube", {0.6f, 0.8f, 1.1f}, 0.3f, Vec3(0), {4, 4, 4})});
+    // What falls on the mirror is absorbed by its black side in the sum, and on the walls once
+    // more.
+    Vec3 onMirror(0);
+    for (std::size_t i = 0; i < all.unwrap.texels.size(); ++i)
+        if (all.sources.planarMirror[all.unwrap.texelChart[i]])
+            onMirror += all.area[all.unwrap.texels[i]] *
+                        (filled.room.irradiance().irradiance[all.unwrap.texels[i]] -
+                         filled.room.roomIrradiance().irradiance[all.unwrap.texels[i]]);
+    const Vec3 emitted = kPi * Vec3(4) * 6.0f * 0.09f;
+    const Vec3 thrownOn = absorbedFlux(filled.room, all) - without - emitted;
+    EXPECT_GT(onMirror.x, 0.2f * emitted.x);
+    for (int c = 0; c < 3; ++c)
+        EXPECT_NEAR(thrownOn[c] / (onMirror[c] * Vec3(1, 1, 0.5f)[c]), 1, 0.06f);
+}
+
 TEST(DynamicLight, OfAnObjectThatEmitsFallsOnOthersAsTraced) {
     const FilledRoom filled(
         lampLit(), {finely(bodyAt("sphere", {0.5f, 0.4f, 1}, 0.3f, Vec3(0.2f), {20, 10, 5})),

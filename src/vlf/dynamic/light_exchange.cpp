@@ -135,7 +135,7 @@ void LightExchange::findPointLights() {
 void LightExchange::findEmitters() {
     emitters_.clear();
     for (std::uint32_t i = 0; i < bodies_.size(); ++i)
-        emitters_.push_back(bodies_[i].light->emitters(*bodies_[i].object, i));
+        emitters_.push_back(bodies_[i].light->emitters(*bodies_[i].object, litRoom(), i));
 }
 
 void LightExchange::findShadows() {

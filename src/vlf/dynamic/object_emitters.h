@@ -1,5 +1,6 @@
 #pragma once
-// Objects that emit: their direct light on the room and on other objects.
+// Objects that emit: their direct light on the room and on other objects, straight and by way of
+// one flat mirror of the room.
 
 #include "vlf/dynamic/change_bounce.h"
 #include "vlf/dynamic/emitter_points.h"
@@ -15,30 +16,45 @@ namespace vlf {
 /// The emitting surfaces of an object where it is: the same few points for whoever is lit by them,
 /// so that nothing flickers.
 struct ObjectEmitters {
-    std::uint32_t number = 0;  ///< of the object among the lit ones
-    EmitterPoints points;
+    std::uint32_t number = 0;        ///< of the object among the lit ones
+    EmitterPoints points;            ///< their images in the room's flat mirrors among them
+    std::vector<LightImage> images;  ///< by EmitterShare::image
 };
 
 /// `unwrap` is that of model.mesh(0).
 std::unique_ptr<const ObjectEmitters> makeEmitters(const DynamicObject& object,
-                                                   const Unwrap& unwrap, std::uint32_t number);
+                                                   const Unwrap& unwrap, const Scene& scene,
+                                                   const RoomTexels& room, std::uint32_t number);
 
 /// What they send to points of surfaces. Keeps its memory: one for each thread.
 class EmittedLight {
   public:
-    EmittedLight(const RayScene& room, const RayInstances& objects)
-        : room_(room), objects_(objects) {}
+    EmittedLight(const RayScene& rays, const RoomTexels& room, const RayInstances& objects)
+        : rays_(rays), room_(room), objects_(objects) {}
 
     /// Irradiance, W·m⁻², at a point with these unit normals.
-    Vec3 irradiance(const EmitterPoints& emitters, const Vec3& point, const Vec3& normal,
+    Vec3 irradiance(const ObjectEmitters& emitters, const Vec3& point, const Vec3& normal,
                     const Vec3& geometric);
 
   private:
-    const RayScene& room_;
+    /// Light that arrives unless something is in the way of one of its two legs.
+    struct Way {
+        Vec3 light{0};
+        Ray fromMirror;  ///< to the emitter; used with a mirror
+        std::uint32_t mirror = kNoChart;
+    };
+
+    void find(const ObjectEmitters& emitters, const EmitterShare& share, const Vec3& origin,
+              const Vec3& normal, const Vec3& geometric);
+    void keepThoseByMirrors();
+    void blockRays();
+
+    const RayScene& rays_;
+    const RoomTexels& room_;
     const RayInstances& objects_;
     std::vector<float> solidAngles_;
-    std::vector<Ray> rays_;
-    std::vector<Vec3> light_;
+    std::vector<Way> ways_;
+    std::vector<Ray> queue_;  ///< of the ways, from the receiver
     std::vector<std::uint8_t> blocked_, blockedByObject_;
 };
 

@@ -95,8 +95,10 @@ bool ObjectLight::misses(const DynamicObject& object, std::span<const Vec3> view
 }
 
 std::unique_ptr<const ObjectEmitters> ObjectLight::emitters(const DynamicObject& object,
+                                                            const LitRoom& room,
                                                             std::uint32_t own) const {
-    return plan_->emitting ? makeEmitters(object, *plan_->emitting, own) : nullptr;
+    return plan_->emitting ? makeEmitters(object, *plan_->emitting, room.scene, room.texels, own)
+                           : nullptr;
 }
 
 void ObjectLight::look(const DynamicObject& object, const Surroundings& around, std::uint32_t own) {
@@ -141,7 +143,7 @@ void ObjectLight::findDirect(const DynamicObject& object, const Surroundings& ar
     parallelFor(blocks, 1, [&](std::size_t block) {
         LightGatherer gatherer(around.room.scene, around.room.rays, room.unwrap, room.sources, 0);
         gatherer.setExtraOccluder(occluderOf(around.instances));
-        EmittedLight emitted(around.room.rays, around.instances);
+        EmittedLight emitted(around.room.rays, room, around.instances);
         const std::size_t end = std::min(receivers.size(), (block + 1) * kReceiversPerBlock);
         for (std::size_t r = block * kReceiversPerBlock; r < end; ++r) {
             direct_[r] = Vec3(0);
@@ -154,10 +156,10 @@ void ObjectLight::findDirect(const DynamicObject& object, const Surroundings& ar
             direct_[r] = gatherer.irradiance(receiver, object.settings.directSamples, 0).value;
             for (const auto& emitters : around.emitters)
                 if (emitters && emitters->number != number_)
-                    direct_[r] += emitted.irradiance(emitters->points,
-                                                     object.pose.point(receivers.position[r]),
-                                                     object.pose.direction(receivers.normal[r]),
-                                                     object.pose.direction(receivers.geometric[r]));
+                    direct_[r] +=
+                        emitted.irradiance(*emitters, object.pose.point(receivers.position[r]),
+                                           object.pose.direction(receivers.normal[r]),
+                                           object.pose.direction(receivers.geometric[r]));
         }
     });
 }

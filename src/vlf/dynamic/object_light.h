@@ -51,7 +51,7 @@ class ObjectLight {
     bool misses(const DynamicObject& object, std::span<const Vec3> viewers) const;
 
     /// The emitters of the object, as number `own` of the lit ones; null: it does not emit.
-    std::unique_ptr<const ObjectEmitters> emitters(const DynamicObject& object,
+    std::unique_ptr<const ObjectEmitters> emitters(const DynamicObject& object, const LitRoom& room,
                                                    std::uint32_t own) const;
 
     /// What was gathered before holds no longer.

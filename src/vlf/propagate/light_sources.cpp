@@ -189,26 +189,6 @@ Affine composed(const Affine& a, const Affine& b) {
     return {a.linear * b.linear, a.linear * b.translation + a.translation};
 }
 
-/// The image of `inner` in mirror chart m.
-LightImage imageIn(const Scene& scene, const Unwrap& unwrap, std::uint32_t m, const Vec3& point,
-                   const LightImage& inner) {
-    LightImage image = inner;
-    image.depth = inner.depth + 1;
-    image.mirror[0] = m;
-    for (int i = 0; i < inner.depth; ++i) image.mirror[i + 1] = inner.mirror[i];
-    const Chart& chart = unwrap.charts[m];
-    image.imageFromWorld = composed(reflection(point, chart.normal), inner.imageFromWorld);
-    image.throughput *= meanMirrorReflectance(scene, scene.materials[chart.material]);
-    return image;
-}
-
-/// Whether some of the light's image lies behind mirror m, whose normal points to the receivers.
-bool mirrorSees(const Unwrap& unwrap, std::uint32_t m, const Vec3& point, const Light& light,
-                const LightImage& inner) {
-    const Vec3 centre = inner.imageFromWorld.point(light.centre);
-    return glm::dot(centre - point, unwrap.charts[m].normal) > -light.radius;
-}
-
 std::vector<std::uint32_t> chartsOfMirrorTexels(const Scene& scene, const Unwrap& unwrap) {
     std::vector<std::uint32_t> chartOf(unwrap.atlasSize(), kNoChart);
     for (std::uint32_t c = 0; c < unwrap.charts.size(); ++c) {
@@ -225,6 +205,21 @@ std::vector<std::uint32_t> chartsOfMirrorTexels(const Scene& scene, const Unwrap
 Affine reflection(const Vec3& point, const Vec3& normal) {
     const Mat3 linear = Mat3(1.0f) - 2.0f * glm::outerProduct(normal, normal);
     return {linear, 2 * glm::dot(point, normal) * normal};
+}
+
+std::optional<LightImage> imageInMirror(const Scene& scene, const Unwrap& unwrap,
+                                        std::uint32_t chart, const Vec3& point, const Light& light,
+                                        const LightImage& inner) {
+    const Chart& mirror = unwrap.charts[chart];
+    const Vec3 centre = inner.imageFromWorld.point(light.centre);
+    if (glm::dot(centre - point, mirror.normal) <= -light.radius) return std::nullopt;
+    LightImage image = inner;
+    image.depth = inner.depth + 1;
+    image.mirror[0] = chart;
+    for (int i = 0; i < inner.depth; ++i) image.mirror[i + 1] = inner.mirror[i];
+    image.imageFromWorld = composed(reflection(point, mirror.normal), inner.imageFromWorld);
+    image.throughput *= meanMirrorReflectance(scene, scene.materials[mirror.material]);
+    return image;
 }
 
 LightSources findLightSources(const Scene& scene, const Unwrap& unwrap) {
@@ -267,8 +262,9 @@ LightSources findLightSources(const Scene& scene, const Unwrap& unwrap) {
             for (const auto& [m, point] : mirrors) {
                 const LightImage inner = sources.images[i];
                 if (inner.depth > 0 && inner.mirror[0] == m) continue;
-                if (mirrorSees(unwrap, m, point, sources.lights[inner.light], inner))
-                    sources.images.push_back(imageIn(scene, unwrap, m, point, inner));
+                if (const auto image =
+                        imageInMirror(scene, unwrap, m, point, sources.lights[inner.light], inner))
+                    sources.images.push_back(*image);
             }
         begin = end;
         sources.imageDepth = depth;

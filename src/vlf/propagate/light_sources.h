@@ -10,6 +10,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace vlf {
@@ -97,6 +98,12 @@ struct LightSources {
                                                      : sky->sky.radiance(direction);
     }
 };
+
+/// The image of `inner`, itself one of `light` or it, in planar mirror `chart` of a scene, whose
+/// plane contains `point`; nothing if none of it is seen there.
+std::optional<LightImage> imageInMirror(const Scene& scene, const Unwrap& unwrap,
+                                        std::uint32_t chart, const Vec3& point, const Light& light,
+                                        const LightImage& inner);
 
 /// Refers to the scene's environment.
 LightSources findLightSources(const Scene& scene, const Unwrap& unwrap);
