@@ -29,13 +29,14 @@ struct BakeSize {
     int cells;
     bool refined;
     std::array<const ScratchPlace*, 2> scratch;  // of the two radiance fields
+    double rowBytes = 0;                         // of both, which are in memory always
 };
 
 MemoryNeed needOf(const BakeSize& size) {
     const double rays = static_cast<double>(size.cells) * size.cells * threadCount();
     const double transport = kBase + size.textureBytes + kPerTriangle * size.triangles +
                              (kPerTexel + (size.refined ? kPerTexelRefined : 0)) * size.texels +
-                             kPerRay * rays;
+                             kPerRay * rays + size.rowBytes;
     MemoryNeed need{.transport = static_cast<std::uint64_t>(transport)};
     const std::array<double, 2> elements{size.elements.perfect, size.elements.rough};
     for (std::size_t i = 0; i < elements.size(); ++i) {
@@ -119,14 +120,22 @@ MemoryNeed predictMemory(const BakeState& state) {
     const auto scratchOf = [](const PartialRadiance& radiance) {
         return radiance.field.elements.get_allocator().place().get();
     };
+    MirrorElements elements;
+    double rowBytes = 0;
+    for (const auto& [params, count] :
+         {std::pair{perfect, &elements.perfect}, std::pair{rough, &elements.rough}}) {
+        const RadianceSize size = estimateRadianceSize(state.scene, field, params);
+        *count = static_cast<double>(size.elements);
+        rowBytes += static_cast<double>(size.bytes - size.elements * sizeof(RadianceElement));
+    }
     return needOf({static_cast<double>(state.scene.triangles.size()),
                    textureBytes(state.scene),
                    static_cast<double>(state.unwrap.atlasSize()),
-                   {estimateElements(state.scene, field, perfect),
-                    estimateElements(state.scene, field, rough)},
+                   elements,
                    state.params.cells,
                    refines(state.params),
-                   {scratchOf(state.radiance), scratchOf(state.gloss)}});
+                   {scratchOf(state.radiance), scratchOf(state.gloss)},
+                   rowBytes});
 }
 
 void requireMemory(const Scene& scene, const BakeParams& params, std::uint64_t bytes,

@@ -136,23 +136,28 @@ RadianceSize radianceSize(const Scene& scene, const LightField& field,
                           radiance.firstRow.size() * sizeof(std::uint32_t)};
 }
 
-double estimateElements(const Scene& scene, const LightField& field, const RadianceParams& params) {
-    if (params.lines == 0) return 0;
+RadianceSize estimateRadianceSize(const Scene& scene, const LightField& field,
+                                  const RadianceParams& params) {
+    if (params.lines == 0) return {};
     checkParams(params);
     const std::vector<MirrorChart> mirrors = mirrorCharts(scene, field, params.kind);
-    if (mirrors.empty()) return 0;
+    if (mirrors.empty()) return {};
     const DirectionSet directions(params.lines);
     const auto count = static_cast<std::size_t>(directions.directionCount());
     const std::size_t looked = std::min(kDirectionsLookedAt, count);
-    std::vector<double> tiles(looked);
+    std::vector<std::uint64_t> tiles(looked), rows(looked);
     parallelFor(looked, 1, [&](std::size_t i) {
         const auto direction = static_cast<std::uint32_t>(i * count / looked);
-        for (const TileRow& row : rowsOf(direction, scene, field, directions, mirrors, params))
+        for (const TileRow& row : rowsOf(direction, scene, field, directions, mirrors, params)) {
             tiles[i] += row.tilesWide;
+            ++rows[i];
+        }
     });
-    const double mean =
-        std::accumulate(tiles.begin(), tiles.end(), 0.0) / static_cast<double>(looked);
-    return mean * static_cast<double>(count) * params.tileSize * params.tileSize;
+    const auto ofAll = [&](const std::vector<std::uint64_t>& some) {
+        return std::accumulate(some.begin(), some.end(), std::uint64_t{0}) * count / looked;
+    };
+    const std::uint64_t elements = ofAll(tiles) * params.tileSize * params.tileSize;
+    return {elements, elements * sizeof(RadianceElement) + ofAll(rows) * sizeof(TileRow)};
 }
 
 bool fillRadiance(const Scene& scene, const RayScene& rays, const LightField& field,

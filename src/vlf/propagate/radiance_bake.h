@@ -22,15 +22,16 @@ struct RadianceParams {
 
 struct RadianceSize {
     std::uint64_t elements = 0;
-    std::uint64_t bytes = 0;
+    std::uint64_t bytes = 0;  ///< of these and of the rows that they stand in
 };
 
 /// The exact size of what bakeRadiance would return, without the work.
 RadianceSize radianceSize(const Scene& scene, const LightField& field,
                           const RadianceParams& params);
 
-/// About how many elements that would be, to a few per cent, from some of the directions.
-double estimateElements(const Scene& scene, const LightField& field, const RadianceParams& params);
+/// About the same, to a few per cent, from some of the directions.
+RadianceSize estimateRadianceSize(const Scene& scene, const LightField& field,
+                                  const RadianceParams& params);
 
 /// A radiance field, complete or under way.
 struct PartialRadiance {
