@@ -298,6 +298,7 @@ void FieldShader::followLobe(const Path& path, const Ray& ray, const Surface& su
     for (int i = 0; i < kLobeRays; ++i) {
         const Vec3 direction = lobe.drawGloss(picture.point(path.ray, i, kLobeRays));
         const float density = lobe.density(direction);
+        if (!(density > 0)) continue;
         const Vec3 throughput =
             path.throughput * lobe.lobes(direction) / (density * static_cast<float>(kLobeRays));
         if (maxComponent(throughput) > 0)
@@ -317,7 +318,7 @@ void FieldShader::followObject(const Path& path, const Ray& ray, const InstanceH
     picture.radiance[path.ray] += path.throughput * ownRadiance(object, *surface);
     const Vec3 throughput = path.throughput * surface->mirror;
     if (maxComponent(throughput) < kMinThroughput) return;
-    next.add({path.ray, throughput},
+    next.add({path.ray, throughput, kCertain, 0, path.spread},
              {surface->position + rays_.epsilon() * surface->geometricNormal,
               mirrorDirection(*surface, ray.direction)});
 }
