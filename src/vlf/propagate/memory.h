@@ -26,7 +26,7 @@ MirrorElements predictElements(const Scene& scene, const BakeParams& params);
 MemoryNeed predictMemory(const Scene& scene, const BakeParams& params,
                          const ScratchPlace* scratch = nullptr);
 
-/// The same to 10 % or 12 MiB, of a bake whose charts are known. Radiance fields live where the state's
+/// The same to 10 % or 15 MiB, of a bake whose charts are known. Radiance fields live where the state's
 /// solution keeps them.
 MemoryNeed predictMemory(const BakeState& state);
 

@@ -58,11 +58,17 @@ TEST_F(OpenGl, LooksRoughMirrorsUpAsTheCpuDoes) {
     }
 }
 
-// Where the CPU traces them.
+// As in mode `field`; the CPU traces them.
 TEST_F(OpenGl, LooksRoughMirrorsUpWherePerfectOnesAreTraced) {
     const BakedExample room = smallRoom("gloss");
-    StillParams traced = stillOf(room.camera("front"));
+    const StillParams lookedUp = stillOf(room.camera("front"));
+    StillParams traced = lookedUp;
     traced.mode = DisplayMode::raytraced;
+    Progress progress;
+    Renderer renderer(room.scene, room.field);
+    EXPECT_LT(meanFlip(renderStill(renderer, traced, progress),
+                       renderStill(room.scene, room.rays, room.field, lookedUp, progress)),
+              0.01);
     EXPECT_LT(flipAgainstCpu(room, traced), 0.04);
 }
 
