@@ -5,6 +5,7 @@
 #include "vlf/base/parallel.h"
 #include "vlf/dynamic/dynamic_room.h"
 #include "vlf/dynamic/posed_scene.h"
+#include "vlf/dynamic/rebake.h"
 #include "vlf/io/field_file.h"
 #include "vlf/propagate/bake.h"
 #include "vlf/scene/generate/primitives.h"
@@ -107,17 +108,6 @@ void measureTimes(DynamicRoom& room, int frames) {
     room.update();
 }
 
-BakeParams paramsOf(const BakeRecord& r) {
-    BakeParams p = presetParams(r.preset == "custom" ? "standard" : r.preset);
-    p.directions = r.directions;
-    p.cells = r.cells;
-    p.texelSize = r.texelSize;
-    p.directSamples = r.directSamples;
-    p.radianceDirections = 0;
-    p.seed = r.seed;
-    return p;
-}
-
 /// Of texels, by area; luminance of irradiance.
 struct Sums {
     double error2 = 0, truth2 = 0, change2 = 0, error = 0, change = 0, area = 0;
@@ -165,7 +155,11 @@ void compareRoom(const BakedRoom& baked, const DynamicRoom& room, const Scene& p
         const Chart& own = baked.field.charts[unwrap.texelChart[i]];
         const Chart& other = truth.charts[c];
         if (own.width != other.width || own.height != other.height) continue;
-        if (isCovered(baked.scene, unwrap.points.of(i), own.normal, posedRays, room.object(0).pose))
+        const Vec3 at = positionAt(baked.scene, p.triangle, p.barycentric);
+        if (isCovered(baked.scene, unwrap.points.of(i), own.normal, posedRays,
+                      room.object(0).pose) ||
+            isConcealed(baked.scene, rays, baked.field.triangleCharts, p.triangle, front, at,
+                        own.texelSize()))
             continue;
         const std::uint32_t x = unwrap.texels[i] % unwrap.atlasWidth - own.x;
         const std::uint32_t y = unwrap.texels[i] / unwrap.atlasWidth - own.y;
@@ -174,8 +168,7 @@ void compareRoom(const BakedRoom& baked, const DynamicRoom& room, const Scene& p
         const double mine = luminance(room.irradiance().irradiance[unwrap.texels[i]]);
         const double area = unwrap.texelArea(i);
         all.add(area, without, mine, with);
-        if (own.normal.y > 0.99f && positionAt(baked.scene, p.triangle, p.barycentric).y < 0.01f)
-            floor.add(area, without, mine, with);
+        if (own.normal.y > 0.99f && at.y < 0.01f) floor.add(area, without, mine, with);
         if (std::abs(with - without) > 0.02 * without) changed.add(area, without, mine, with);
     }
     all.print("whole room");
@@ -214,7 +207,9 @@ LightField truthOf(const Scene& posed, const BakeRecord& record, const std::stri
     if (!file.empty() && std::filesystem::exists(file)) return readField(file).field;
     Progress progress;
     const auto start = Clock::now();
-    LightField truth = bake(posed, paramsOf(record), progress);
+    BakeParams params = paramsOf(record);
+    params.radianceDirections = 0;
+    LightField truth = bake(posed, params, progress);
     std::printf("new bake: %.2f s\n", 1e-3 * milliseconds(start));
     if (!file.empty()) writeField(file, {posed, truth});
     return truth;

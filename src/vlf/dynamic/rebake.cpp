@@ -45,8 +45,8 @@ struct TexelPair {
     Vec3 still, dynamic, rebaked;
 };
 
-void addTexels(const DynamicRoom& room, const LightField& rebaked, std::uint32_t triangle,
-               bool front, float epsilon, std::vector<TexelPair>& pairs) {
+void addTexels(const DynamicRoom& room, const RayScene& rays, const LightField& rebaked,
+               std::uint32_t triangle, bool front, std::vector<TexelPair>& pairs) {
     if (room.scene().material(triangle).isEmitter()) return;
     const TriangleCharts& charts = room.field().triangleCharts[triangle];
     const TriangleCharts& others = rebaked.triangleCharts[triangle];
@@ -57,7 +57,10 @@ void addTexels(const DynamicRoom& room, const LightField& rebaked, std::uint32_t
     const Chart& otherChart = rebaked.charts[other];
     const Vec3 normal = geometricNormal(room.scene(), triangle) * (front ? 1.0f : -1.0f);
     forTexels(room.scene(), triangle, chart, [&](const Vec2& texel, const Vec3& position) {
-        if (buried(room, position, normal, epsilon)) return;
+        if (buried(room, position, normal, rays.epsilon()) ||
+            isConcealed(room.scene(), rays, room.field().triangleCharts, triangle, front, position,
+                        chart.texelSize()))
+            return;
         pairs.push_back({room.roomIrradiance().sample(chart, texel),
                          room.irradiance().sample(chart, texel),
                          rebaked.atlas.sample(otherChart, otherChart.texelCoordinates(position))});
@@ -96,13 +99,24 @@ RebakedRoom rebake(const DynamicRoom& room, const BakeParams& params, Progress& 
     return rebaked;
 }
 
+bool isConcealed(const Scene& scene, const RayScene& rays,
+                 std::span<const TriangleCharts> triangleCharts, std::uint32_t triangle, bool front,
+                 const Vec3& position, float gap) {
+    const Vec3 normal = geometricNormal(scene, triangle) * (front ? 1.0f : -1.0f);
+    const Hit hit = rays.closest({position + rays.epsilon() * normal, normal});
+    if (!hit) return false;
+    const TriangleCharts& charts = triangleCharts[hit.triangle];
+    const bool hitsFront = glm::dot(geometricNormal(scene, hit.triangle), normal) < 0;
+    return hit.t < gap || (hitsFront ? charts.front : charts.back) == kNoChart;
+}
+
 RoomLightError compareRoomLight(const DynamicRoom& room, const LightField& rebaked) {
     const Scene& scene = room.scene();
-    const float epsilon = rayEpsilon(scene);
+    const RayScene rays(scene);
     std::vector<std::vector<TexelPair>> pairs(scene.triangles.size());
     parallelFor(pairs.size(), 16, [&](std::size_t t) {
         for (const bool front : {true, false})
-            addTexels(room, rebaked, static_cast<std::uint32_t>(t), front, epsilon, pairs[t]);
+            addTexels(room, rays, rebaked, static_cast<std::uint32_t>(t), front, pairs[t]);
     });
 
     RoomLightError error;

@@ -6,6 +6,8 @@
 #include "vlf/propagate/bake.h"
 
 #include <cstddef>
+#include <cstdint>
+#include <span>
 
 namespace vlf {
 
@@ -21,9 +23,17 @@ struct RebakedRoom {
 /// Throws as bake().
 RebakedRoom rebake(const DynamicRoom& room, const BakeParams& params, Progress& progress);
 
+/// Whether a place of one side of a triangle (`front`: that of its winding normal) is within a
+/// solid of the room or has something above it closer than `gap`, in metres: nobody sees its light,
+/// and of two bakes each may fill it in otherwise.
+bool isConcealed(const Scene& scene, const RayScene& rays,
+                 std::span<const TriangleCharts> triangleCharts, std::uint32_t triangle, bool front,
+                 const Vec3& position, float gap);
+
 /// Irradiance of the room's texels with objects in it against that of the same places after
-/// baking again. Texels within objects and of lamps are left out: behind lamps that all but touch a
-/// ceiling, light is noise. All relative, 0.01 = 1 %.
+/// baking again. Left out are texels within objects, places concealed by something closer than a
+/// texel is wide, and lamps: behind those that all but touch a ceiling, light is noise. All
+/// relative, 0.01 = 1 %.
 struct RoomLightError {
     std::size_t texels = 0;
     double relativeRmse = 0;  ///< √(Σ(E−E*)² / ΣE*²), E dynamic, E* baked again
