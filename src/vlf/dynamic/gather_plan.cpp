@@ -17,9 +17,6 @@ namespace {
 
 constexpr float kMinCosine = 1e-4f;
 constexpr float kContact = 4;  // ray epsilons
-constexpr std::size_t kDirectionsPerBlock = 8;
-constexpr int kOwnBounces = 6;        // of light from one part of the object to another
-constexpr float kLeastShare = 0.25f;  // of the mean chance, for dark directions
 
 /// What one direction contributes to the plan.
 struct DirectionPart {
@@ -129,7 +126,7 @@ DirectionPart planDirection(const ObjectReceivers& receivers, const Clusters& cl
 
 /// Entries of all parts by receiver; `shift` is added to where those of a part come from.
 GatherPlan::Entries sortByReceiver(const std::vector<DirectionPart>& parts,
-                                   DirectionPart::Entries DirectionPart::*entries,
+                                   DirectionPart::Entries DirectionPart::* entries,
                                    std::size_t receivers,
                                    const std::function<std::uint32_t(std::size_t)>& shift) {
     GatherPlan::Entries sorted;
@@ -172,7 +169,8 @@ GatherPlan makeGatherPlan(const ObjectReceivers& receivers, const Sphere& bounds
     }
     Clusters clusters;
     if (params.cellsAcross > 0) {
-        clusters.of = clusterReceivers(receivers, 2 * bounds.radius / params.cellsAcross);
+        plan.patch = 2 * bounds.radius / params.cellsAcross;
+        clusters.of = clusterReceivers(receivers, plan.patch);
         clusters.middle = middles(receivers, clusters.of);
     }
     std::vector<DirectionPart> parts(plan.directions.size());
@@ -181,156 +179,6 @@ GatherPlan makeGatherPlan(const ObjectReceivers& receivers, const Sphere& bounds
     });
     assemble(parts, receivers.position, plan);
     return plan;
-}
-
-void GatherSights::pickDirections(const GatherPlan& plan, const Vec3& centre, int count,
-                                  const Pose& pose, const LitRoom& room,
-                                  const SightObjects& objects) {
-    chances_.clear();
-    if (count <= 0) return;
-    std::vector<Ray> rays;
-    for (const Vec3& d : plan.directions) rays.push_back({pose.point(centre), pose.direction(d)});
-    SightTracer tracer(room.scene, room.rays, room.texels);
-    tracer.setObjects(objects);
-    Sights sights;
-    tracer.trace(rays, sights);
-    chances_.assign(rays.size(), 0);
-    for (std::size_t d = 0; d < rays.size(); ++d)
-        if (sights.texel[d] != kNoTexel) chances_[d] = luminance(room.radiance[sights.texel[d]]);
-    for (const Sight& sight : sights.others)
-        chances_[sight.ray] +=
-            luminance(sight.throughput * (diffuseRadiance(sight, room.radiance, objects.lit) +
-                                          (sight.emissionApart ? Vec3(0) : sight.emission)));
-    float sum = 0;
-    for (const float c : chances_) sum += c;
-    const auto directions = static_cast<float>(chances_.size());
-    const float least = sum > 0 ? kLeastShare * sum / directions : 1;
-    sum = std::max(sum + directions * least, 1e-30f);
-    // Systematic sampling: where the running sum passes a whole number a direction is picked.
-    float passed = 0.5f;
-    for (float& c : chances_) {
-        const float chance = std::min(1.0f, static_cast<float>(count) * (c + least) / sum);
-        passed += chance;
-        c = passed >= 1 ? chance : 0;
-        if (passed >= 1) passed -= 1;
-    }
-}
-
-void GatherSights::findNeeded(const GatherPlan& plan) {
-    needed_.clear();
-    if (wanted_.empty()) return;
-    needed_.assign(plan.launches.size(), 0);
-    for (std::size_t r = 0; r < wanted_.size(); ++r) {
-        if (!wanted_[r]) continue;
-        for (const GatherPlan::Entry& entry : plan.outside.of(r)) needed_[entry.from] = 1;
-    }
-}
-
-void GatherSights::trace(const GatherPlan& plan, const Pose& pose, const LitRoom& room,
-                         const SightObjects& objects, const Coverage& coverage,
-                         std::span<const std::uint8_t> wanted, bool emission) {
-    wanted_.assign(wanted.begin(), wanted.end());
-    findNeeded(plan);
-    const std::size_t count = plan.launches.size();
-    texel_.assign(count, kNoTexel);
-    valid_.assign(count, 0);
-    const std::size_t blocks =
-        (plan.directions.size() + kDirectionsPerBlock - 1) / kDirectionsPerBlock;
-    others_.resize(blocks);
-    parallelFor(blocks, 2, [&](std::size_t block) {
-        const std::size_t end = std::min(plan.directions.size(), (block + 1) * kDirectionsPerBlock);
-        thread_local std::vector<Ray> queue;
-        thread_local std::vector<std::uint32_t> launchOf;
-        thread_local Sights sights;
-        thread_local std::vector<float> scaleOf;
-        queue.clear(), launchOf.clear(), scaleOf.clear();
-        for (std::size_t d = block * kDirectionsPerBlock; d < end; ++d) {
-            if (chance(d) <= 0) continue;
-            const Vec3 direction = pose.direction(plan.directions[d]);
-            // From just within the object: what touches it is seen.
-            const Vec3 back = -kContact * room.rays.epsilon() * direction;
-            for (std::uint32_t i = plan.firstLaunch[d]; i < plan.firstLaunch[d + 1]; ++i) {
-                if (!needed_.empty() && !needed_[i]) continue;
-                queue.push_back({pose.point(plan.launches[i]) + back, direction});
-                launchOf.push_back(i);
-                scaleOf.push_back(1 / chance(d));
-            }
-        }
-        SightTracer tracer(room.scene, room.rays, room.texels);
-        tracer.setObjects(objects);
-        tracer.trace(queue, sights);
-        // What an object lies on is dark, and it is not known how dark.
-        const auto isDark = [&](std::uint32_t texel) {
-            return texel != kNoTexel && coverage.uncovered(texel) <= 0;
-        };
-        for (std::size_t i = 0; i < queue.size(); ++i) {
-            const bool dark = isDark(sights.texel[i]);
-            texel_[launchOf[i]] = dark ? kNoTexel : sights.texel[i];
-            valid_[launchOf[i]] = !dark && !sights.within[i];
-        }
-        others_[block].clear();
-        for (const Sight& sight : sights.others) {
-            if (isDark(sight.texel)) {
-                if (!sight.inMirror) valid_[launchOf[sight.ray]] = 0;
-                continue;
-            }
-            others_[block].push_back({launchOf[sight.ray], scaleOf[sight.ray], sight});
-            if (sight.emissionApart && !emission) others_[block].back().sight.emission = Vec3(0);
-        }
-    });
-}
-
-/// Of directions that were not followed nothing is known but that they are likely samples.
-void GatherSights::findRadiance(const GatherPlan& plan, std::span<const Vec3> texelRadiance,
-                                std::span<const LitObject> lit) {
-    radiance_.resize(texel_.size());
-    for (std::size_t d = 0; d < plan.directions.size(); ++d) {
-        const float scale = chance(d) > 0 ? 1 / chance(d) : 0;
-        for (std::uint32_t i = plan.firstLaunch[d]; i < plan.firstLaunch[d + 1]; ++i)
-            radiance_[i] = Vec4(texel_[i] == kNoTexel ? Vec3(0) : scale * texelRadiance[texel_[i]],
-                                valid_[i] ? 1.0f : 1 - scale);
-    }
-    for (const std::vector<Seen>& block : others_)
-        for (const Seen& seen : block)
-            radiance_[seen.launch] +=
-                Vec4(seen.scale * seen.sight.throughput *
-                         (diffuseRadiance(seen.sight, texelRadiance, lit) + seen.sight.emission),
-                     0);
-}
-
-void GatherSights::gather(const GatherPlan& plan, const ObjectReceivers& receivers,
-                          std::span<const Vec3> texelRadiance, std::span<const LitObject> lit,
-                          std::span<const Vec3> direct, std::span<Vec3> irradiance) {
-    findRadiance(plan, texelRadiance, lit);
-    outside_.resize(receivers.size());
-    parallelFor(receivers.size(), 16, [&](std::size_t r) {
-        if (!wants(r)) return;
-        Vec4 sum(0);
-        for (const GatherPlan::Entry& entry : plan.outside.of(r))
-            sum += entry.weight * radiance_[entry.from];
-        for (const GatherPlan::Entry& entry : plan.inside.of(r)) sum.w += entry.weight;
-        const float norm = sum.w > 0 ? kPi / sum.w : 0;
-        outside_[r] = Vec4(norm * Vec3(sum), norm);
-        irradiance[r] = Vec3(outside_[r]);
-    });
-    if (!plan.inside.all.empty()) reflectWithin(plan, receivers, direct, irradiance);
-}
-
-/// Jacobi iterations of the light between receivers.
-void GatherSights::reflectWithin(const GatherPlan& plan, const ObjectReceivers& receivers,
-                                 std::span<const Vec3> direct, std::span<Vec3> irradiance) {
-    ownRadiance_.resize(receivers.size());
-    for (int bounce = 0; bounce < kOwnBounces; ++bounce) {
-        for (std::size_t r = 0; r < receivers.size(); ++r)
-            ownRadiance_[r] = receivers.reflectance[r] * (irradiance[r] + direct[r]) / kPi;
-        parallelFor(receivers.size(), 16, [&](std::size_t r) {
-            if (!wants(r)) return;
-            Vec3 sum(0);
-            for (const GatherPlan::Entry& entry : plan.inside.of(r))
-                sum += entry.weight * ownRadiance_[entry.from];
-            irradiance[r] = Vec3(outside_[r]) + outside_[r].w * sum;
-        });
-    }
 }
 
 }  // namespace vlf

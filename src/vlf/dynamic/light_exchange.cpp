@@ -1,7 +1,7 @@
 // Read this first. An update of the light between a room and its objects:
 //
 //   1. place the objects and find what of the room they cover;
-//   2. look about: trace the rays along which objects see the room (gather_plan.h) and the lines
+//   2. look about: trace the rays along which objects see the room (gather_sights.h) and the lines
 //      that they cut (delta_transport.h), and sample emitters from their surfaces;
 //   3. take the direct light out of the room that objects block (soft_shadow.h), put in what they
 //      emit (object_emitters.h);

@@ -127,8 +127,8 @@ void ObjectLight::lookForGather(const DynamicObject& object, const Surroundings&
     }
     sights_.pickDirections(plan_->gather, object.model->bounds().centre, settings.importanceSamples,
                            object.pose, around.room, objects);
-    sights_.trace(plan_->gather, object.pose, around.room, objects, around.coverage, traced_,
-                  settings.emittersByDirections);
+    sights_.trace(plan_->gather, receivers, object.pose, around.room, objects, around.coverage,
+                  traced_, settings.emittersByDirections);
     if (settings.emittersByDirections)
         std::fill(direct_.begin(), direct_.end(), Vec3(0));
     else

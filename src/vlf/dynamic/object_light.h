@@ -2,6 +2,7 @@
 // The light on one object.
 
 #include "vlf/dynamic/delta_transport.h"
+#include "vlf/dynamic/gather_sights.h"
 #include "vlf/dynamic/incident_light.h"
 #include "vlf/dynamic/irradiance_cache.h"
 #include "vlf/dynamic/object_emitters.h"

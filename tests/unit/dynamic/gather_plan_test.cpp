@@ -176,5 +176,27 @@ TEST(Gather, SharedRaysAndFewerDirectionsStayNearToAll) {
     }
 }
 
+/// A room with a floor that is bright but for a dark strip along the middle, the rest black.
+const LitRoom& striped() {
+    static const LitRoom room = [] {
+        LitRoom made(furnace().scene, Vec3(0));
+        for (const std::uint32_t t : made.texels.unwrap.texels)
+            if (made.texels.place[t].y < -1.99f && std::abs(made.texels.place[t].z) > 0.6f)
+                made.radiance[t] = Vec3(1);
+        return made;
+    }();
+    return room;
+}
+
+TEST(Gather, PatchesSeeTheFloorThatTheyStandOnFromEachOfTheirPlaces) {
+    const ObjectModel model = bodyOf("cube", Vec3(0));
+    GatherSettings settings = few();
+    settings.lines = 513;
+    const Pose pose{{0, -1.5f, 0}, Quat(1, 0, 0, 0), 1};
+    const Gathered exact(striped(), model, settings, 0, pose);
+    const Gathered shared(striped(), model, settings, 4, pose);
+    EXPECT_LT(meanDifference(exact, shared), 0.06);
+}
+
 }  // namespace
 }  // namespace vlf::test

@@ -2,7 +2,7 @@
 // What an object that is alone in a room gathers from it, all light of the room known.
 
 #include "lit_room.h"
-#include "vlf/dynamic/gather_plan.h"
+#include "vlf/dynamic/gather_sights.h"
 #include "vlf/dynamic/lit_room.h"
 #include "vlf/scene/generate/primitives.h"
 
@@ -36,7 +36,8 @@ struct Gathered {
         GatherSights sights;
         sights.pickDirections(plan, model.bounds().centre, settings.importanceSamples, pose, around,
                               objects);
-        sights.trace(plan, pose, around, objects, coverage, {}, settings.emittersByDirections);
+        sights.trace(plan, *receivers, pose, around, objects, coverage, {},
+                     settings.emittersByDirections);
         sights.gather(plan, *receivers, room.radiance, {&lit, 1}, direct, irradiance);
     }
 };
