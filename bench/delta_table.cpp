@@ -169,7 +169,9 @@ void compareRoom(const BakedRoom& baked, const DynamicRoom& room, const Scene& p
         const double area = unwrap.texelArea(i);
         all.add(area, without, mine, with);
         if (own.normal.y > 0.99f && at.y < 0.01f) floor.add(area, without, mine, with);
-        if (std::abs(with - without) > 0.02 * without) changed.add(area, without, mine, with);
+        // By both: noise of either would else choose those that it favours.
+        if (std::abs(0.5 * (with + mine) - without) > 0.02 * without)
+            changed.add(area, without, mine, with);
     }
     all.print("whole room");
     floor.print("floor");
