@@ -435,8 +435,9 @@ class BadInput(Case):
         self.run_vlf(*bake, "-o", "b.vlf", "--max-memory", "0.1")
         little = json.loads((self.folder / "report.json").read_text())
         self.assertEqual((self.folder / "a.vlf").read_bytes(), (self.folder / "b.vlf").read_bytes())
-        self.assertGreater(whole["peakMemoryMiB"], 120)
-        self.assertLess(little["peakMemoryMiB"], 0.1 * 1024)
+        if "VLF_SANITIZED" not in os.environ:  # sanitizers take memory of their own
+            self.assertGreater(whole["peakMemoryMiB"], 120)
+            self.assertLess(little["peakMemoryMiB"], 0.1 * 1024)
         self.assertEqual(sorted(p.name for p in self.folder.glob(".vlf-scratch*")), [])
 
     def test_absurdly_small_texels_are_refused(self):

@@ -1,6 +1,6 @@
 #pragma once
 // Counts what operator new is asked for. For programs of one source file: it replaces the
-// operators.
+// operators, but for those of a sanitizer, which it must not mix with its own.
 
 #include <atomic>
 #include <cstdlib>
@@ -15,6 +15,7 @@ inline std::atomic<int> allocations{0};
 
 }  // namespace vlf::test
 
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 // Not inlined, or the compiler sees what new and delete are made of and calls them mismatched.
 [[gnu::noinline]] void* operator new(std::size_t size) {
     if (vlf::test::countsAllocations || vlf::test::countsOwnAllocations) ++vlf::test::allocations;
@@ -27,3 +28,4 @@ inline std::atomic<int> allocations{0};
 [[gnu::noinline]] void operator delete(void* p, std::size_t) noexcept {
     std::free(p);
 }
+#endif

@@ -132,7 +132,8 @@ TEST_F(ImportGltfPaint, StaysWithinItsSize) {
     std::vector<std::uint16_t> indices;
     for (int i = 0; i < 500; ++i) indices.insert(indices.end(), {0, 1, 2, 0, 2, 3});
     document.primitive()["indices"] = document.addIndices(indices);
-    const Texture& painted = import(document).textures.back();
+    const Scene scene = import(document);
+    const Texture& painted = scene.textures.back();
     EXPECT_GT(painted.linear.size(), 1u << 21);
     EXPECT_LT(painted.linear.size(), 1u << 23);
 }
