@@ -72,55 +72,65 @@ void GatherSights::trace(const GatherPlan& plan, const ObjectReceivers& receiver
     others_.resize(blocks), near_.resize(blocks);
     const float reach = kNear * plan.patch * pose.scale;
     parallelFor(blocks, 2, [&](std::size_t block) {
-        const std::size_t end = std::min(plan.directions.size(), (block + 1) * kDirectionsPerBlock);
-        thread_local std::vector<Ray> queue;
-        thread_local std::vector<std::uint32_t> launchOf;
-        thread_local Sights sights;
-        thread_local std::vector<float> scaleOf;
-        queue.clear(), launchOf.clear(), scaleOf.clear();
-        for (std::size_t d = block * kDirectionsPerBlock; d < end; ++d) {
-            if (chance(d) <= 0) continue;
-            const Vec3 direction = pose.direction(plan.directions[d]);
-            // From just within the object: what touches it is seen.
-            const Vec3 back = -kContact * room.rays.epsilon() * direction;
-            for (std::uint32_t i = plan.firstLaunch[d]; i < plan.firstLaunch[d + 1]; ++i) {
-                if (!needed_.empty() && !needed_[i]) continue;
-                queue.push_back({pose.point(plan.launches[i]) + back, direction});
-                launchOf.push_back(i);
-                scaleOf.push_back(1 / chance(d));
-            }
-        }
+        thread_local Launched launched;
+        queueLaunches(plan, pose, kContact * room.rays.epsilon(), block, launched);
         SightTracer tracer(room.scene, room.rays, room.texels);
         tracer.setObjects(objects);
-        tracer.trace(queue, sights);
-        // What an object lies on is dark, and it is not known how dark.
-        const auto isDark = [&](std::uint32_t texel) {
-            return texel != kNoTexel && coverage.uncovered(texel) <= 0;
-        };
-        for (std::size_t i = 0; i < queue.size(); ++i) {
-            const bool dark = isDark(sights.texel[i]);
-            texel_[launchOf[i]] = dark ? kNoTexel : sights.texel[i];
-            valid_[launchOf[i]] = !dark && !sights.within[i];
-        }
+        tracer.trace(launched.rays, launched.sights);
+        keepSights(launched, coverage, emission, block);
         near_[block].clear();
-        for (std::size_t i = 0; i < queue.size(); ++i) {
-            const std::uint32_t texel = texel_[launchOf[i]];
-            if (texel == kNoTexel || sights.distance[i] >= reach) continue;
-            const auto place =
-                NearPlace::of(queue[i], sights.distance[i], texel, pose, room.texels);
-            if (place) near_[block].push_back({launchOf[i], scaleOf[i], queue[i], *place});
-        }
-        others_[block].clear();
-        for (const Sight& sight : sights.others) {
-            if (isDark(sight.texel)) {
-                if (!sight.inMirror) valid_[launchOf[sight.ray]] = 0;
-                continue;
-            }
-            others_[block].push_back({launchOf[sight.ray], scaleOf[sight.ray], sight});
-            if (sight.emissionApart && !emission) others_[block].back().sight.emission = Vec3(0);
+        for (std::size_t i = 0; i < launched.rays.size(); ++i) {
+            const std::uint32_t texel = texel_[launched.of[i]];
+            const float distance = launched.sights.distance[i];
+            if (texel == kNoTexel || distance >= reach) continue;
+            const auto place = NearPlace::of(launched.rays[i], distance, texel, pose, room.texels);
+            if (place)
+                near_[block].push_back(
+                    {launched.of[i], launched.scale[i], launched.rays[i], *place});
         }
     });
     findOwnTexels(plan, receivers, pose, room, objects, coverage);
+}
+
+/// From `depth` within the object, in metres: what touches it is seen.
+void GatherSights::queueLaunches(const GatherPlan& plan, const Pose& pose, float depth,
+                                 std::size_t block, Launched& launched) const {
+    launched.rays.clear(), launched.of.clear(), launched.scale.clear();
+    const std::size_t end = std::min(plan.directions.size(), (block + 1) * kDirectionsPerBlock);
+    for (std::size_t d = block * kDirectionsPerBlock; d < end; ++d) {
+        if (chance(d) <= 0) continue;
+        const Vec3 direction = pose.direction(plan.directions[d]);
+        for (std::uint32_t i = plan.firstLaunch[d]; i < plan.firstLaunch[d + 1]; ++i) {
+            if (!needed_.empty() && !needed_[i]) continue;
+            launched.rays.push_back({pose.point(plan.launches[i]) - depth * direction, direction});
+            launched.of.push_back(i);
+            launched.scale.push_back(1 / chance(d));
+        }
+    }
+}
+
+/// What an object lies on is dark, and it is not known how dark.
+void GatherSights::keepSights(const Launched& launched, const Coverage& coverage, bool emission,
+                              std::size_t block) {
+    const Sights& sights = launched.sights;
+    const auto isDark = [&](std::uint32_t texel) {
+        return texel != kNoTexel && coverage.uncovered(texel) <= 0;
+    };
+    for (std::size_t i = 0; i < launched.rays.size(); ++i) {
+        const bool dark = isDark(sights.texel[i]);
+        texel_[launched.of[i]] = dark ? kNoTexel : sights.texel[i];
+        valid_[launched.of[i]] = !dark && !sights.within[i];
+    }
+    others_[block].clear();
+    for (const Sight& sight : sights.others) {
+        const std::uint32_t launch = launched.of[sight.ray];
+        if (isDark(sight.texel)) {
+            if (!sight.inMirror) valid_[launch] = 0;
+            continue;
+        }
+        others_[block].push_back({launch, launched.scale[sight.ray], sight});
+        if (sight.emissionApart && !emission) others_[block].back().sight.emission = Vec3(0);
+    }
 }
 
 void GatherSights::findOwnTexels(const GatherPlan& plan, const ObjectReceivers& receivers,

@@ -40,12 +40,19 @@ class GatherSights {
                 std::span<const Vec3> direct, std::span<Vec3> irradiance);
 
   private:
+    /// Rays of some directions.
+    struct Launched {
+        std::vector<Ray> rays;
+        std::vector<std::uint32_t> of;  ///< by ray: its launch
+        std::vector<float> scale;       ///< one by the chance
+        Sights sights;
+    };
     struct Seen {
         std::uint32_t launch;
         float scale;  ///< one by the chance
         Sight sight;
     };
-
+    /// One that meets a flat chart close by.
     struct NearLaunch {
         std::uint32_t launch;
         float scale;
@@ -57,7 +64,6 @@ class GatherSights {
         std::uint32_t receiver, texel, ofLaunch;
         float weight;
     };
-
     /// Of parallels that pass the surface by that the launch meets: to be traced.
     struct OwnSights {
         std::vector<Ray> rays;
@@ -66,6 +72,10 @@ class GatherSights {
     };
 
     void findNeeded(const GatherPlan& plan);
+    void queueLaunches(const GatherPlan& plan, const Pose& pose, float depth, std::size_t block,
+                       Launched& launched) const;
+    void keepSights(const Launched& launched, const Coverage& coverage, bool emission,
+                    std::size_t block);
     void findOwnTexels(const GatherPlan& plan, const ObjectReceivers& receivers, const Pose& pose,
                        const LitRoom& room, const SightObjects& objects, const Coverage& coverage);
     void shiftLaunches(const GatherPlan& plan, const ObjectReceivers& receivers, std::size_t r,
