@@ -139,11 +139,10 @@ void GatherSights::findOwnTexels(const GatherPlan& plan, const ObjectReceivers& 
     const std::size_t blocks = (receivers.size() + kReceiversPerBlock - 1) / kReceiversPerBlock;
     ownTexels_.resize(blocks);
     for (std::vector<OwnTexel>& block : ownTexels_) block.clear();
+    if (std::ranges::all_of(near_, [](const auto& block) { return block.empty(); })) return;
     nearOf_.assign(plan.launches.size(), nullptr);
-    bool any = false;
     for (const std::vector<NearLaunch>& block : near_)
-        for (const NearLaunch& near : block) nearOf_[near.launch] = &near, any = true;
-    if (!any) return;
+        for (const NearLaunch& near : block) nearOf_[near.launch] = &near;
     parallelFor(blocks, 1, [&](std::size_t block) {
         thread_local OwnSights passed;
         passed.rays.clear(), passed.of.clear();

@@ -97,7 +97,7 @@ class GatherSights {
     std::vector<std::uint8_t> valid_;
     std::vector<std::vector<Seen>> others_;         ///< by block of directions
     std::vector<std::vector<NearLaunch>> near_;     ///< likewise
-    std::vector<const NearLaunch*> nearOf_;         ///< by launch; empty: none is
+    std::vector<const NearLaunch*> nearOf_;         ///< by launch; null: it is not
     std::vector<std::vector<OwnTexel>> ownTexels_;  ///< by block of receivers, in their order
     std::vector<Vec4> outside_;  ///< by receiver: irradiance from without; that of unit radiance
                                  ///< from an entry of unit weight

@@ -29,7 +29,7 @@ std::uint32_t NearPlace::texelFrom(const Vec3& offset, const RoomTexels& room) c
     const std::uint32_t texel =
         (chart_->y + static_cast<std::uint32_t>(at.y)) * room.unwrap.atlasWidth + chart_->x +
         static_cast<std::uint32_t>(at.x);
-    return room.excluded[texel] ? kNoTexel : room.source[texel];
+    return room.excluded[texel] || room.source[texel] != texel ? kNoTexel : texel;
 }
 
 }  // namespace vlf

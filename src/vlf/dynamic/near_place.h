@@ -19,7 +19,7 @@ class NearPlace {
                                        const Pose& pose, const RoomTexels& room);
 
     /// The texel that the parallel through another point of the body meets, `offset` in the body's
-    /// space from where the ray starts; kNoTexel if it passes the chart by.
+    /// space from where the ray starts; kNoTexel if the chart covers none there.
     std::uint32_t texelFrom(const Vec3& offset, const RoomTexels& room) const;
 
   private:
