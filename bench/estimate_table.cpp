@@ -8,38 +8,21 @@
 // scene` or a file.
 
 #include "scene_named.h"
+#include "solved_room.h"
 #include "vlf/base/error.h"
-#include "vlf/propagate/bake.h"
-#include "vlf/propagate/error_estimate.h"
 
 #include <cmath>
 #include <cstdio>
-#include <ctime>
 #include <exception>
 #include <string>
 
 using namespace vlf;
+using bench::SolvedRoom;
 
 namespace {
 
-struct Solved {
-    Solved(const Scene& scene, const BakeParams& params)
-        : start(std::clock()), state(makeState(scene, params, progress)) {
-        propagate(state, progress);
-        error = reportError(state, estimateError(state));
-        seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
-    }
-
-    std::clock_t start;
-    Progress progress;
-    BakeState state;
-    ErrorReport error;
-    double seconds = 0;  // CPU
-};
-
 BakeParams withTexelsOfStandard(BakeParams p) {
     p.texelBudget = presetParams("standard").texelBudget;
-    p.radianceDirections = p.glossDirections = 0;
     return p;
 }
 
@@ -63,7 +46,7 @@ double squared(const Vec3& v) {
     return glm::dot(v, v);
 }
 
-void compare(const std::string& name, const Solved& s, const Solved& truth) {
+void compare(const std::string& name, const SolvedRoom& s, const SolvedRoom& truth) {
     if (s.state.irradiance.size() != truth.state.irradiance.size())
         throw InputError("the truth has other texels");
     double direct = 0, indirect = 0, all = 0, light = 0;
@@ -88,11 +71,11 @@ void compare(const std::string& name, const Solved& s, const Solved& truth) {
 void run(int argc, char** argv) {
     const std::string name = argc > 1 ? argv[1] : "cornell";
     const Scene scene = sceneNamed(name);
-    const Solved truth(scene, truthParams());
+    const SolvedRoom truth(scene, truthParams());
     std::printf("%s: the truth's own error is about %.2f %%\n", name.c_str(),
                 100 * truth.error.ofTexels());
     std::printf("| bake | CPU s | direct: estimated / true, %% | indirect | all | ratio |\n");
-    for (int i = 2; i < argc; ++i) compare(argv[i], Solved(scene, paramsOf(argv[i])), truth);
+    for (int i = 2; i < argc; ++i) compare(argv[i], SolvedRoom(scene, paramsOf(argv[i])), truth);
 }
 
 }  // namespace

@@ -9,48 +9,26 @@
 // fields. SCENE is a name known to `vlf scene` or a file.
 
 #include "scene_named.h"
+#include "solved_room.h"
 #include "vlf/base/parallel.h"
-#include "vlf/propagate/bake.h"
-#include "vlf/propagate/error_estimate.h"
 #include "vlf/propagate/fill_atlas.h"
-#include "vlf/propagate/texel_plan.h"
 
 #include <cmath>
 #include <cstdio>
-#include <ctime>
 #include <exception>
 #include <string>
-#include <utility>
 #include <vector>
 
 using namespace vlf;
+using bench::SolvedRoom;
 
 namespace {
 
-struct Solved {
-    Solved(Scene sceneToSolve, BakeParams params)
-        : start(std::clock()),
-          scene(std::move(sceneToSolve)),
-          state(makeState(scene, withPieces(params), progress)) {
-        propagate(state, progress);
-        error = reportError(state, estimateError(state));
-        atlas = fillAtlas(state);
-        seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
-    }
+struct Shown : SolvedRoom {
+    Shown(const Scene& scene, const BakeParams& params)
+        : SolvedRoom(scene, params), atlas(fillAtlas(state)) {}
 
-    BakeParams& withPieces(BakeParams& params) {
-        params.radianceDirections = params.glossDirections = 0;
-        if (params.adaptiveTexels) params.pieces = planTexels(scene, params, progress);
-        return params;
-    }
-
-    std::clock_t start;
-    Progress progress;
-    Scene scene;
-    BakeState state;
-    ErrorReport error;
     IrradianceAtlas atlas;
-    double seconds = 0;  // CPU
 };
 
 BakeParams paramsOf(const std::string& text) {
@@ -80,7 +58,7 @@ struct Squares {
     double error = 0, light = 0;
 };
 
-Squares compare(const Solved& s, const Solved& truth, std::size_t i) {
+Squares compare(const Shown& s, const SolvedRoom& truth, std::size_t i) {
     const Unwrap& u = truth.state.unwrap;
     const Unwrap& shownIn = s.state.unwrap;
     if (maxComponent(truth.state.reflectance[i]) <= 0) return {};
@@ -108,7 +86,7 @@ Squares compare(const Solved& s, const Solved& truth, std::size_t i) {
             area * squared(truth.state.irradiance[i])};
 }
 
-void printRow(const char* name, const Solved& s, const Solved& truth) {
+void printRow(const char* name, const Shown& s, const SolvedRoom& truth) {
     std::vector<Squares> squares(truth.state.unwrap.texels.size());
     parallelFor(squares.size(), 256, [&](std::size_t i) { squares[i] = compare(s, truth, i); });
     Squares sum;
@@ -122,7 +100,7 @@ void printRow(const char* name, const Solved& s, const Solved& truth) {
 void run(int argc, char** argv) {
     const std::string name = argc > 1 ? argv[1] : "cornell";
     const Scene scene = sceneNamed(name);
-    const Solved truth(scene, truthParams());
+    const SolvedRoom truth(scene, truthParams());
     std::printf("%s: the texels of the truth are off by about %.2f %%\n", name.c_str(),
                 100 * truth.error.ofTexels());
     std::printf("| bake | texels | triangles | CPU s | between texels: estimated | true |\n");
@@ -132,7 +110,7 @@ void run(int argc, char** argv) {
             BakeParams p = paramsOf(argv[i]);
             p.adaptiveTexels = adaptive;
             const std::string row = std::string(argv[i]) + (adaptive ? ", adaptive" : "");
-            printRow(row.c_str(), Solved(scene, p), truth);
+            printRow(row.c_str(), Shown(scene, p), truth);
         }
 }
 
