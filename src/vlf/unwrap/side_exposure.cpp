@@ -6,6 +6,7 @@
 #include "vlf/math/sampling.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <numeric>
 
@@ -14,15 +15,34 @@ namespace vlf {
 namespace {
 
 constexpr int kBounces = 16;
-constexpr std::size_t kParticlesPerGroup = 24, kMinParticles = 8000, kMaxParticles = 2000000;
-constexpr std::uint32_t kMinHits = 4;
-constexpr float kMinShare = 0.01f;  // of both sides' hits: less is a crack
+constexpr std::size_t kFloodPerGroup = 24, kLeastFlood = 8000, kGreatestFlood = 2000000;
+constexpr std::uint32_t kMinParticles = 4;
+constexpr float kMinShare = 0.01f;  // of those that reach either side: less is a crack
 
 /// Chance of going through glass, either side of which is open, rather than back.
 constexpr float kPassesGlass = 0.75f;
 
+/// Particles that have reached each side of a group.
 struct Counter {
     std::atomic<std::uint32_t> front{0}, back{0};
+};
+
+/// Sides that a particle has reached. It counts once at each: between a panel and the wall close
+/// behind it, one that slips in is thrown to and fro.
+class Reached {
+  public:
+    /// Whether it is the first time.
+    bool add(std::uint32_t group, bool front) {
+        const std::uint64_t side = 2 * std::uint64_t{group} + front;
+        const auto end = sides_.begin() + count_;
+        if (std::find(sides_.begin(), end, side) != end) return false;
+        sides_[count_++] = side;
+        return true;
+    }
+
+  private:
+    std::array<std::uint64_t, kBounces> sides_;
+    int count_ = 0;
 };
 
 /// Where particles start: emitters by area, all triangles if there are none.
@@ -62,6 +82,7 @@ Vec3 bounced(const Vec3& normal, RandomStream& random) {
 void followParticle(const Scene& scene, const RayScene& rays,
                     const std::vector<std::uint32_t>& groupOf, std::vector<Counter>& counters,
                     Ray ray, RandomStream& random) {
+    Reached reached;
     for (int bounce = 0; bounce < kBounces; ++bounce) {
         Hit hit = rays.closest(ray);
         while (hit && scene.material(hit.triangle).isGlass() && random.next() < kPassesGlass)
@@ -69,8 +90,10 @@ void followParticle(const Scene& scene, const RayScene& rays,
         if (!hit) return;
         Vec3 normal = geometricNormal(scene, hit.triangle);
         const bool front = glm::dot(normal, ray.direction) < 0;
-        Counter& counter = counters[groupOf[hit.triangle]];
-        (front ? counter.front : counter.back).fetch_add(1, std::memory_order_relaxed);
+        const std::uint32_t group = groupOf[hit.triangle];
+        Counter& counter = counters[group];
+        if (reached.add(group, front))
+            (front ? counter.front : counter.back).fetch_add(1, std::memory_order_relaxed);
         if (!front) normal = -normal;
         const Vec3 position = positionAt(scene, hit.triangle, hit.barycentric);
         ray = {position + rays.epsilon() * normal, bounced(normal, random)};
@@ -108,8 +131,8 @@ Ray fromLight(const Scene& scene, const Sphere& sphere, RandomStream& random) {
 }
 
 OpenSides classify(std::uint32_t front, std::uint32_t back) {
-    const bool backOpen = back >= kMinHits && back > kMinShare * (front + back);
-    const bool frontReached = front >= kMinHits && front > kMinShare * (front + back);
+    const bool backOpen = back >= kMinParticles && back > kMinShare * (front + back);
+    const bool frontReached = front >= kMinParticles && front > kMinShare * (front + back);
     return {frontReached || !backOpen, backOpen};
 }
 
@@ -121,7 +144,7 @@ std::vector<OpenSides> findOpenSides(const Scene& scene, const RayScene& rays,
                                      std::uint64_t seed) {
     std::vector<Counter> counters(groups.size());
     const std::size_t particles =
-        std::clamp(kParticlesPerGroup * groups.size(), kMinParticles, kMaxParticles);
+        std::clamp(kFloodPerGroup * groups.size(), kLeastFlood, kGreatestFlood);
     const Sphere sphere = boundingSphere(scene);
     const bool sky = !scene.environment.isBlack(), lights = !scene.lights.empty();
     const auto flood = [&](std::size_t number, const auto& start) {
