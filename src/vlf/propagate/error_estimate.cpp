@@ -15,12 +15,13 @@ namespace {
 constexpr std::size_t kBlock = 1024;
 
 // Mean square of what bilinear interpolation misses, to the sum of the squared second differences
-// along both axes: 0.017 where light bends evenly, 0.09 at an edge of shadow, which is what counts.
-constexpr float kBend = 0.06f;
+// along both axes: 0.017 where light bends evenly, 0.09 at an edge of shadow, which is what counts;
+// and a little for the rims of charts, where light is not interpolated.
+constexpr float kBend = 0.1f;
 
 // Light that is lost or won where texels are too large for it, to what interpolation misses;
 // measured.
-constexpr double kLost = 0.08;
+constexpr double kLost = 0.06;
 
 constexpr double kDark = 0.1;  // of the room's light, to which errors of darker texels are held
 
