@@ -11,7 +11,8 @@ namespace {
 constexpr float kContact = 4;  // ray epsilons
 constexpr std::size_t kDirectionsPerBlock = 8, kReceiversPerBlock = 16;
 constexpr float kNear = 4;            // widths of a patch
-constexpr int kOwnBounces = 6;        // of light from one part of the object to another
+constexpr int kOwnBounces = 6;        // of light from one part of the object to another, at most
+constexpr float kSettled = 1e-3f;     // of their light: what is left when these may end
 constexpr float kLeastShare = 0.25f;  // of the mean chance, for dark directions
 
 }  // namespace
@@ -239,18 +240,31 @@ void GatherSights::gather(const GatherPlan& plan, const ObjectReceivers& receive
 /// Jacobi iterations of the light between receivers.
 void GatherSights::reflectWithin(const GatherPlan& plan, const ObjectReceivers& receivers,
                                  std::span<const Vec3> direct, std::span<Vec3> irradiance) {
-    ownRadiance_.resize(receivers.size());
+    ownRadiance_.assign(receivers.size(), Vec4(0));
     for (int bounce = 0; bounce < kOwnBounces; ++bounce) {
-        for (std::size_t r = 0; r < receivers.size(); ++r)
-            ownRadiance_[r] = receivers.reflectance[r] * (irradiance[r] + direct[r]) / kPi;
+        double change = 0, light = 0;
+        for (std::size_t r = 0; r < receivers.size(); ++r) {
+            const Vec4 own(receivers.reflectance[r] * (irradiance[r] + direct[r]) / kPi, 0);
+            change += maxComponent(glm::abs(Vec3(own - ownRadiance_[r])));
+            light += maxComponent(Vec3(own));
+            ownRadiance_[r] = own;
+        }
+        if (change <= kSettled * light) return;
         parallelFor(receivers.size(), 16, [&](std::size_t r) {
             if (!wants(r)) return;
-            Vec3 sum(0);
+            Vec4 sum(0);
             for (const GatherPlan::Entry& entry : plan.inside.of(r))
                 sum += entry.weight * ownRadiance_[entry.from];
-            irradiance[r] = Vec3(outside_[r]) + outside_[r].w * sum;
+            irradiance[r] = Vec3(outside_[r] + outside_[r].w * sum);
         });
     }
+}
+
+bool GatherSights::seesObjects() const {
+    return std::ranges::any_of(others_, [](const std::vector<Seen>& block) {
+        return std::ranges::any_of(block,
+                                   [](const Seen& seen) { return seen.sight.object != kNoObject; });
+    });
 }
 
 }  // namespace vlf

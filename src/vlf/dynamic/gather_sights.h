@@ -39,6 +39,9 @@ class GatherSights {
                 std::span<const Vec3> texelRadiance, std::span<const LitObject> lit,
                 std::span<const Vec3> direct, std::span<Vec3> irradiance);
 
+    /// Whether what gather() finds depends on the light of the objects it is given.
+    bool seesObjects() const;
+
   private:
     /// Rays of some directions.
     struct Launched {
@@ -101,7 +104,7 @@ class GatherSights {
     std::vector<std::vector<OwnTexel>> ownTexels_;  ///< by block of receivers, in their order
     std::vector<Vec4> outside_;  ///< by receiver: irradiance from without; that of unit radiance
                                  ///< from an entry of unit weight
-    std::vector<Vec3> ownRadiance_;  ///< by receiver
+    std::vector<Vec4> ownRadiance_;  ///< by receiver
     std::vector<Vec4> radiance_;     ///< by launch; w: 1, or 0 where it is no sample
 };
 

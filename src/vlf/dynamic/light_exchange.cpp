@@ -175,8 +175,8 @@ void LightExchange::shadeRoom() {
 }
 
 /// Objects that change the room's indirect light are lit by the room with their shadows first, and
-/// then by what they and these have made of it. Objects see one another, too: all are lit twice
-/// or more, first by others of which the light is but guessed.
+/// then by what they and these have made of it. Objects see one another, too: those that do are lit
+/// twice or more, first by others of which the light is but guessed.
 void LightExchange::exchange(const Surroundings& around) {
     const bool indirect = std::any_of(bodies_.begin(), bodies_.end(),
                                       [](const Body& body) { return body.light->changesRoom(); });
@@ -191,7 +191,7 @@ void LightExchange::exchange(const Surroundings& around) {
         Surroundings alone = around;
         alone.radiance = shadedRadiance_;
         findObjectLight(alone);
-        if (bodies_.size() > 1) findOthersLight(alone);
+        findLightOfSeers(alone);
     }
     changeRoom(true);
     if (roomChanges_) change_.findRadiance(roomLight_, radiance_);
@@ -199,7 +199,7 @@ void LightExchange::exchange(const Surroundings& around) {
     if (indirect)
         changeRoom(false);
     else
-        findOthersLight(around);
+        findLightOfSeers(around);
     change_.apply(roomLight_, light_);
 }
 
@@ -239,6 +239,13 @@ void LightExchange::findObjectLight(const Surroundings& around) {
 void LightExchange::findOthersLight(const Surroundings& around) {
     for (const Body& body : bodies_)
         if (!isTransferred(body)) body.light->find(*body.object, around);
+}
+
+/// Once more.
+void LightExchange::findLightOfSeers(const Surroundings& around) {
+    for (const Body& body : bodies_)
+        if (!isTransferred(body) && body.light->seesObjects())
+            body.light->find(*body.object, around);
 }
 
 }  // namespace vlf

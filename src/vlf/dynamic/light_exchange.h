@@ -57,6 +57,7 @@ class LightExchange {
     void changeRoom(bool bouncing);
     void findObjectLight(const Surroundings& around);
     void findOthersLight(const Surroundings& around);
+    void findLightOfSeers(const Surroundings& around);
     bool isDue(const Body& body) const;
     LitRoom litRoom() const { return {scene_, roomRays_, texels_, roomRadiance_}; }
 

@@ -187,6 +187,10 @@ void ObjectLight::find(const DynamicObject& object, const Surroundings& around) 
     publish();
 }
 
+bool ObjectLight::seesObjects() const {
+    return plan_->shading == Shading::gather && sights_.seesObjects();
+}
+
 void ObjectLight::gather(const DynamicObject& object, const Surroundings& around) {
     const ObjectReceivers& receivers = *plan_->receivers;
     sights_.gather(plan_->gather, receivers, around.radiance, around.lit, direct_, irradiance_);

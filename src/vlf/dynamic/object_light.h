@@ -73,6 +73,9 @@ class ObjectLight {
     /// has found.
     void find(const DynamicObject& object, const Surroundings& around);
 
+    /// Whether find() depends on the light of the objects, by what it has seen since look().
+    bool seesObjects() const;
+
     /// Whether it takes from the room's indirect light and gives it back.
     bool changesRoom() const { return lines_ != nullptr; }
 
