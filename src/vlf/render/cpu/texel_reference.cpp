@@ -11,6 +11,7 @@ namespace {
 
 /// Samples between two reports of progress, roughly.
 constexpr std::size_t kSamplesPerPass = 1 << 20;
+constexpr int kSamplesPerCheck = 256;  // whether it is cancelled
 
 IrradianceEstimate summarise(const glm::dvec3& sum, const glm::dvec3& sumOfSquares,
                              std::uint32_t samples) {
@@ -23,11 +24,12 @@ IrradianceEstimate summarise(const glm::dvec3& sum, const glm::dvec3& sumOfSquar
 
 IrradianceEstimate estimateTexel(const PathIntegrator& integrator, TexelArea points,
                                  std::size_t texel, const SideIsOpen& isOpen,
-                                 const IrradianceParams& params) {
+                                 const IrradianceParams& params, const Progress& progress) {
     if (points.empty()) return {};
     glm::dvec3 sum(0), sumOfSquares(0);
     std::uint32_t samples = 0;
     for (int i = 0; i < params.samplesPerTexel; ++i) {
+        if (i % kSamplesPerCheck == 0) progress.check();
         RandomStream random(params.seed, (std::uint64_t(texel) << 32) | std::uint32_t(i));
         const SidePoint& point = points[random.nextBits() % points.size()];
         const std::optional<Vec3> irradiance = integrator.irradiance(point, isOpen, random);
@@ -63,9 +65,9 @@ std::vector<IrradianceEstimate> estimateIrradiance(const Scene& scene, const Ray
     progress.stage("path tracing texels");
     for (std::size_t begin = 0; begin < texels.size(); begin += pass) {
         parallelFor(std::min(pass, texels.size() - begin), [&](std::size_t i) {
-            if (progress.cancelled()) return;
             const std::size_t texel = begin + i;
-            estimates[texel] = estimateTexel(integrator, texels[texel], texel, isOpen, params);
+            estimates[texel] =
+                estimateTexel(integrator, texels[texel], texel, isOpen, params, progress);
         });
         progress.check();
         progress.update(double(std::min(begin + pass, texels.size())) / double(texels.size()));
