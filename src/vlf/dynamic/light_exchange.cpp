@@ -241,7 +241,7 @@ void LightExchange::findOthersLight(const Surroundings& around) {
         if (!isTransferred(body)) body.light->find(*body.object, around);
 }
 
-/// Once more.
+/// Once more, of those that see objects: by the light found on these.
 void LightExchange::findLightOfSeers(const Surroundings& around) {
     for (const Body& body : bodies_)
         if (!isTransferred(body) && body.light->seesObjects())
