@@ -6,9 +6,11 @@
 #include "vlf/math/sampling.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <span>
 #include <utility>
+#include <vector>
 
 namespace vlf {
 
@@ -59,17 +61,33 @@ bool isConvex(const Scene& scene, float radius) {
     return true;
 }
 
-/// Systematic sampling: along the triangles one after the other a point for every part of the area.
+/// Place of a direction on a path over the sphere, along bands of equal area to and fro: what is
+/// near on the path is near on the sphere.
+float placeOnSphere(const Vec3& direction) {
+    constexpr float kBands = 8;
+    const float height = 0.5f + 0.5f * direction.z / std::max(glm::length(direction), 1e-30f);
+    const float band = std::min(std::floor(kBands * height), kBands - 1);
+    const float turn = 0.5f + 0.5f / kPi * std::atan2(direction.y, direction.x);
+    return band + (std::fmod(band, 2.0f) == 0 ? turn : 1 - turn);
+}
+
+/// Systematic sampling: along the triangles, those that face alike one after the other, a point for
+/// every part of the area; any number of the points that lie evenly in the row faces all ways.
 float spreadPatches(const Scene& scene, std::span<SurfacePatch> patches) {
+    std::vector<std::pair<float, std::uint32_t>> order;
     double all = 0;
-    for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) all += area(scene, t);
+    for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) {
+        order.emplace_back(placeOnSphere(areaVector(scene, t)), t);
+        all += area(scene, t);
+    }
+    std::sort(order.begin(), order.end());
     const float outward = outwardSign(scene);
     const double part = all / static_cast<double>(patches.size());
     double passed = 0;
     std::uint32_t next = 0;
-    for (std::uint32_t t = 0; t < scene.triangles.size() && next < patches.size(); ++t) {
+    for (const auto& [place, t] : order) {
         passed += area(scene, t);
-        const bool last = t + 1 == scene.triangles.size();
+        const bool last = t == order.back().second;
         for (std::uint32_t k = 0; next < patches.size() && (last || (next + 0.5) * part < passed);
              ++k, ++next)
             patches[next] = {positionAt(scene, t, sampleUniformTriangle(r2Point(k, Vec2(0.5f)))),

@@ -1,5 +1,7 @@
 #include "vlf/dynamic/object_model.h"
 #include "vlf/base/error.h"
+#include "vlf/math/random.h"
+#include "vlf/math/sampling.h"
 #include "vlf/scene/generate/primitives.h"
 
 #include <algorithm>
@@ -36,6 +38,25 @@ TEST(ObjectModel, IsConvexWhereNoPartHidesAnother) {
     EXPECT_TRUE(ObjectModel(cube).convex());  // inside out
     cube.triangles.pop_back();
     EXPECT_FALSE(ObjectModel(cube).convex());
+}
+
+TEST(ObjectModel, PatchesFaceAnyDirectionAsMuchAsItsSurfaceDoes) {
+    const ObjectModel model(makePrimitive("knot", {}));
+    double off2 = 0, off = 0;
+    constexpr int kDirections = 64;
+    for (std::uint32_t k = 0; k < kDirections; ++k) {
+        const Vec3 direction = sampleUniformSphere(r2Point(k, Vec2(0.5f)));
+        double patches = 0, surface = 0;
+        for (const SurfacePatch& p : model.patches())
+            patches += model.patchArea() * std::max(0.0f, glm::dot(p.normal, direction));
+        for (std::uint32_t t = 0; t < model.scene().triangles.size(); ++t)
+            surface += area(model.scene(), t) *
+                       std::max(0.0f, glm::dot(geometricNormal(model.scene(), t), direction));
+        off += patches / surface - 1;
+        off2 += std::pow(patches / surface - 1, 2);
+    }
+    EXPECT_LT(std::abs(off) / kDirections, 0.03);
+    EXPECT_LT(std::sqrt(off2 / kDirections), 0.06);
 }
 
 TEST(ObjectModel, SubdivisionKeepsTheSurface) {
