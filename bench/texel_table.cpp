@@ -25,8 +25,8 @@ using bench::SolvedRoom;
 namespace {
 
 struct Shown : SolvedRoom {
-    Shown(const Scene& scene, const BakeParams& params)
-        : SolvedRoom(scene, params), atlas(fillAtlas(state)) {}
+    Shown(const Scene& room, const BakeParams& params)
+        : SolvedRoom(room, params), atlas(fillAtlas(state)) {}
 
     IrradianceAtlas atlas;
 };
