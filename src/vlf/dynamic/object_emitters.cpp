@@ -134,9 +134,11 @@ void findEmittedLight(const ObjectEmitters& emitters, const Scene& scene, const 
             return emitted.irradiance(emitters, point, normal, geometric);
         };
         TexelSquare(room, room.groups[g])
-            .light(0, find, [&](std::uint32_t texel, const Vec3& irradiance) {
-                if (irradiance != Vec3(0)) parts[g].push_back({texel, irradiance});
-            });
+            .light(
+                0, [](const Sphere&) { return LightThere::even; }, find,
+                [&](std::uint32_t texel, const Vec3& irradiance) {
+                    if (irradiance != Vec3(0)) parts[g].push_back({texel, irradiance});
+                });
     });
     for (const std::vector<TexelChange>& part : parts)
         light.insert(light.end(), part.begin(), part.end());

@@ -80,19 +80,6 @@ LightPlane::LightPlane(const Scene& scene, const Light& light, const Affine& ima
     }
 }
 
-bool LightPlane::mayBeMet(const Ray& ray, float beyond) const {
-    if (triangles_.empty()) return true;
-    const float cosine = -glm::dot(normal_, ray.direction);
-    if (cosine <= 0) return false;
-    const float distance = (glm::dot(normal_, ray.origin) - offset_) / cosine;
-    if (distance <= beyond) return false;
-    const Vec3 point = ray.origin + distance * ray.direction;
-    return std::ranges::any_of(triangles_, [&](const std::array<Edge, 3>& edges) {
-        return std::ranges::all_of(
-            edges, [&](const Edge& e) { return glm::dot(e.inward, point) >= e.offset; });
-    });
-}
-
 Obstructions::Obstructions(const Scene& scene, const RayScene& rays, const RoomTexels& room)
     : room_(room), gatherer_(scene, rays, room.unwrap, room.sources, 0) {
     for (const LightImage& image : room.sources.images) {

@@ -7,6 +7,7 @@
 #include "vlf/propagate/light_gatherer.h"
 #include "vlf/scene/scene.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -29,8 +30,18 @@ class LightPlane {
     LightPlane() = default;
     LightPlane(const Scene& scene, const Light& light, const Affine& imageFromWorld);
 
-    /// Whether a ray may meet the emitting side, beyond a distance.
-    bool mayBeMet(const Ray& ray, float beyond) const;
+    /// Whether a ray from `origin` along `way` may meet the emitting side beyond the way's end.
+    bool mayBeMet(const Vec3& origin, const Vec3& way) const {
+        if (triangles_.empty()) return true;
+        const float height = glm::dot(normal_, origin) - offset_;
+        const float descent = -glm::dot(normal_, way);
+        if (descent <= 0 || height <= descent) return false;
+        const Vec3 point = origin + height / descent * way;
+        return std::ranges::any_of(triangles_, [&](const std::array<Edge, 3>& edges) {
+            return std::ranges::all_of(
+                edges, [&](const Edge& e) { return glm::dot(e.inward, point) >= e.offset; });
+        });
+    }
 
   private:
     struct Edge {

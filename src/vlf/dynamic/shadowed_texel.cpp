@@ -153,15 +153,17 @@ void ShadowedTexel::aim(const Spot& spot) {
         if (!closed) facing = std::abs(facing);
         const float above = glm::dot(p.shading, way);
         if (!(facing > 0) || !(above > 0) || glm::dot(p.geometric, way) <= 0) continue;
-        const float squared = glm::dot(way, way), distance = std::sqrt(squared);
         const Point& real = memory_.points[at];
-        const Ray ray{real.position + rays_.epsilon() * real.geometric,
-                      obstructions_.unfoldDirection(way / distance, spot.image, segment)};
-        if (!plane.mayBeMet(ray, distance)) continue;
-        memory_.looks.push_back(
-            {ray,
-             above * facing * area / (receiverLobe(p.shading, p.geometric) * squared * squared),
-             distance});
+        const Vec3 origin = real.position + rays_.epsilon() * real.geometric;
+        const Vec3 unfolded = obstructions_.unfoldDirection(way, spot.image, segment);
+        if (!plane.mayBeMet(origin, unfolded)) continue;
+        const float squared = glm::dot(way, way), distance = std::sqrt(squared);
+        Look& look = memory_.looks.emplace_back();  // in place: copying one stalls
+        look.ray.origin = origin;
+        look.ray.direction = unfolded / distance;
+        look.weight =
+            above * facing * area / (receiverLobe(p.shading, p.geometric) * squared * squared);
+        look.met = distance;
     }
 }
 

@@ -76,6 +76,18 @@ const TexelLoss& SoftShadows::find(const Coverage& coverage, const RayInstances&
         const auto keep = [&](std::uint32_t t, const Vec3& loss) {
             if (loss != Vec3(0)) parts_[g].emplace_back(room_.entryOf[t], loss);
         };
+        const auto expect = [&](const Sphere& part) {
+            thread_local std::vector<MayHide> there;
+            LightReceiver receiver = all;
+            receiver.centre = part.centre, receiver.radius = part.radius;
+            there.clear();
+            for (const MayHide& shadow : shadows)
+                if (obstructions_.mayHide(receiver, shadow.image, *shadow.object))
+                    there.push_back(shadow);
+            return there.empty()                              ? LightThere::none
+                   : obstructions_.areSmooth(receiver, there) ? LightThere::even
+                                                              : LightThere::any;
+        };
         if (obstructions_.areSmooth(all, shadows)) {
             thread_local std::vector<SurfacePoint> points;
             spreadPoints(room_, group, points);
@@ -87,11 +99,8 @@ const TexelLoss& SoftShadows::find(const Coverage& coverage, const RayInstances&
                 weak_[g] = mean;
                 return;
             }
-            TexelSquare(room_, group).light(kBent * slight, find, keep);
-            return;
         }
-        for (std::uint32_t k = group.first; k < group.first + group.count; ++k)
-            keep(room_.unwrap.texels[room_.grouped[k]], find(room_.grouped[k]));
+        TexelSquare(room_, group).light(kBent * slight, expect, find, keep);
     });
     loss_.entries.clear(), loss_.loss.clear(), loss_.groups.clear(), loss_.groupLoss.clear();
     for (std::uint32_t g = 0; g < weak_.size(); ++g) {
