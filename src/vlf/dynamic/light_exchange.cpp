@@ -24,7 +24,7 @@ namespace vlf {
 
 namespace {
 
-constexpr int kShadowSamples = 4;       // of a texel, for each of an object's own
+constexpr int kShadowSamples = 5;       // of a texel, for each of an object's own
 constexpr float kSlightShadow = 1e-3f;  // of the room's mean irradiance
 constexpr float kLeastAmbient = 5e-4f;  // of the room's mean irradiance
 
@@ -46,6 +46,11 @@ bool takesDirectLight(const DynamicObject& object) {
 
 bool isTransferred(const Body& body) {
     return body.object->settings.shading == Shading::prt;
+}
+
+/// Whether its light is found by what it sees of the room.
+bool seesRoom(const Body& body) {
+    return body.object->settings.shading == Shading::gather || isTransferred(body);
 }
 
 Vec3 mean(const RoomTexels& texels, const IrradianceAtlas& atlas) {
@@ -74,6 +79,7 @@ void LightExchange::setRoomLight(const IrradianceAtlas& atlas) {
     for (const std::uint32_t t : texels_.unwrap.texels)
         roomRadiance_[t] = texels_.reflectance[t] * atlas.irradiance[t] / kPi;
     radiance_ = shadedRadiance_ = roomRadiance_;
+    radianceKnown_ = false;
     shaded_.clear();
     meanIrradiance_ = mean(texels_, atlas);
     double flux = 0;
@@ -194,7 +200,11 @@ void LightExchange::exchange(const Surroundings& around) {
         findLightOfSeers(alone);
     }
     changeRoom(true);
-    if (roomChanges_) change_.findRadiance(roomLight_, radiance_);
+    if (roomChanges_) radianceKnown_ = false;
+    if (!radianceKnown_ && std::ranges::any_of(bodies_, seesRoom)) {
+        change_.findRadiance(roomLight_, radiance_);
+        radianceKnown_ = true;
+    }
     findObjectLight(around);
     if (indirect)
         changeRoom(false);

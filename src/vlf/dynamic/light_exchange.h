@@ -67,6 +67,7 @@ class LightExchange {
     IncidentLightFinder incident_;
     IrradianceAtlas roomLight_, light_;  ///< without objects and with them
     std::vector<Vec3> roomRadiance_, radiance_;
+    bool radianceKnown_ = false;         ///< radiance_ is up to date
     std::vector<Vec3> shadedRadiance_;   ///< of the room without direct light that objects block
     std::vector<std::uint32_t> shaded_;  ///< texels where that is another
     Vec3 meanIrradiance_{0};

@@ -142,6 +142,23 @@ TEST(SameLight, WhereAnObjectWithoutShadowStood) {
         0u);
 }
 
+TEST(SameLight, WhenNothingHasLookedAtTheRoomForAWhile) {
+    const auto set = [](DynamicRoom& room, std::size_t i, Shading shading, ShadowKind shadow) {
+        ObjectSettings settings = room.object(i).settings;
+        settings.shading = shading;
+        settings.shadow = shadow;
+        room.setSettings(i, settings);
+    };
+    FilledRoom room(lampLit(), {coarsely(bodyAt("cube", {0.7f, 0.25f, 1.1f}, 0.5f)),
+                                coarsely(bodyAt("cube", {1.2f, 0.4f, 0.8f}, 0.3f))});
+    for (std::size_t i = 0; i < 2; ++i) set(room.room, i, Shading::flat, ShadowKind::none);
+    room.room.update();
+    set(room.room, 1, Shading::gather, ShadowKind::none);
+    room.room.update();
+    FilledRoom fresh(lampLit(), {room.room.object(0), room.room.object(1)});
+    EXPECT_EQ(differences(allLight(fresh.room), allLight(room.room)), 0u);
+}
+
 TEST(SameLight, WhateverSettingsCameBefore) {
     RandomStream random(2, 0);
     const auto pick = [&](int count) { return static_cast<int>(random.next() * count) % count; };
