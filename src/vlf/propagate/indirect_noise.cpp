@@ -52,18 +52,19 @@ Spread spreadOf(std::span<const TexelBuffer> parts, const TexelBuffer& gathered,
     return {squares / (weight * weight) * n / (n - 1), true};
 }
 
-}  // namespace
-
-float evennessOf(int lines, double samplesPerLine, bool turned) {
-    const double directions = std::sqrt(513.0 / lines);
+/// Variance of what all directions gather to that of its parts if these were independent.
+float evennessOf(const SweptDirections& swept, double samplesPerLine) {
     const double samples = 0.26 / std::max(samplesPerLine, 1e-6);
-    const double whole = (turned ? kWholeTurned : kWhole) * directions + kWholeSamples * samples;
-    const double parts = kParts * directions + kPartsSamples * samples;
+    const double whole =
+        (swept.turned ? kWholeTurned : kWhole) * swept.spacing + kWholeSamples * samples;
+    const double parts = kParts * swept.spacing + kPartsSamples * samples;
     return static_cast<float>(std::min(1.0, whole / parts));
 }
 
+}  // namespace
+
 std::vector<float> indirectVariance(const Unwrap& unwrap, std::span<const TexelBuffer> parts,
-                                    const TexelBuffer& gathered, float evenness) {
+                                    const TexelBuffer& gathered, const SweptDirections& swept) {
     const std::vector<std::uint32_t>& texels = unwrap.texels;
     std::vector<Spread> spread(texels.size());
     parallelFor(texels.size(), kBlock,
@@ -86,7 +87,7 @@ std::vector<float> indirectVariance(const Unwrap& unwrap, std::span<const TexelB
         if (samples <= 0) continue;
         const float v =
             spread[i].known ? spread[i].variance : ofSample * squaredMean(texels[i]) / samples;
-        result[i] = kPi * kPi * evenness * v;
+        result[i] = kPi * kPi * evennessOf(swept, samples / swept.lines) * v;
     }
     return result;
 }

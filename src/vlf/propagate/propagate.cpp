@@ -153,14 +153,6 @@ void deposit(BakeState& state, const TexelBuffer& gathered) {
     }
 }
 
-/// Of the sweep that has ended, see evennessOf.
-float evenness(const BakeState& state, int lines, bool turned) {
-    double exchanges = 0;
-    for (const std::uint64_t n : state.sweep.exchanges) exchanges += static_cast<double>(n);
-    const auto texels = static_cast<double>(state.unwrap.texels.size());
-    return evennessOf(lines, 2 * exchanges / (texels * lines), turned);
-}
-
 /// Takes what was gathered.
 void endSweep(BakeState& state) {
     Sweep& s = state.sweep;
@@ -186,7 +178,8 @@ void propagateOnce(BakeState& state, int directions, int cells, int rotation, Pr
         while (!topUp(state, kMinSamples, radiance, progress)) observe(state);
         smoothIndirect(state.unwrap, s.parts, s.gathered);
         state.indirectVariance =
-            indirectVariance(state.unwrap, s.parts, s.gathered, evenness(state, directions, false));
+            indirectVariance(state.unwrap, s.parts, s.gathered,
+                             {static_cast<double>(directions), spacingOf(directions), false});
     }
     endSweep(state);
 }
@@ -205,10 +198,9 @@ void refineOnce(BakeState& state, int directions, Progress& progress, const Bake
     while (!topUp(state, static_cast<int>(samples), radiance, progress)) observe(state);
     std::array<TexelBuffer, kAccumulators> smoothed = s.parts;  // those are added to later
     smoothIndirect(state.unwrap, smoothed, s.gathered);
-    r.evenness =
-        (before * r.evenness + lines * evenness(state, directions, true)) / (before + lines);
+    r.spacing = (before * r.spacing + lines * spacingOf(directions)) / (before + lines);
     state.indirectVariance =
-        indirectVariance(state.unwrap, smoothed, s.gathered, static_cast<float>(r.evenness));
+        indirectVariance(state.unwrap, smoothed, s.gathered, {before + lines, r.spacing, true});
     endSweep(state);
     r.sweptLines += static_cast<std::uint64_t>(directions);
 }
