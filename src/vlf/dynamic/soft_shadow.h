@@ -46,8 +46,8 @@ class SoftShadows {
 
     /// `rays` are those of the objects, in their order. What they cover loses nothing. `samples` of
     /// each texel, at most. Over squares of 64 texels where nine agree that it changes evenly, or
-    /// to less than `slight` (W·m⁻²), it is interpolated; light that is much less is let be. Valid
-    /// until the next call.
+    /// to less than `slight` (W·m⁻²), and over quarters of them where five do, it is interpolated;
+    /// light that is much less is let be. Valid until the next call.
     const TexelLoss& find(const Coverage& coverage, const RayInstances& rays,
                           std::span<const ShadowCaster> objects, int samples, float slight);
 
