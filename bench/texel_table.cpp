@@ -62,6 +62,7 @@ Squares compare(const Shown& s, const SolvedRoom& truth, std::size_t i) {
     const Unwrap& u = truth.state.unwrap;
     const Unwrap& shownIn = s.state.unwrap;
     if (maxComponent(truth.state.reflectance[i]) <= 0) return {};
+    if (truth.state.irradiance[i] == Vec3(0)) return {};  // closed off: nobody sees it
     const float lift = 1e-4f * s.state.frame.radius;
     Vec3 shown(0);
     float count = 0, covered = 0;
