@@ -42,8 +42,8 @@ class ObjectModel {
     /// Of its vertices, about the middle of its box.
     const Sphere& bounds() const { return bounds_; }
 
-    /// Points that stand for pieces of equal area, in the order of the triangles; of every second
-    /// or fourth the same is true.
+    /// Points that stand for pieces of equal area, in an order in which those that face alike
+    /// follow one another: every second or fourth of them stand for all, too.
     static constexpr int kPatches = 96;
     const std::array<SurfacePatch, kPatches>& patches() const { return patches_; }
     float patchArea() const { return patchArea_; }  ///< m²
