@@ -24,6 +24,8 @@ using bench::SolvedRoom;
 
 namespace {
 
+constexpr float kClosedOff = 1e-3f;  // of the room's mean light: nobody sees what has less
+
 struct Shown : SolvedRoom {
     Shown(const Scene& room, const BakeParams& params)
         : SolvedRoom(room, params), atlas(fillAtlas(state)) {}
@@ -53,16 +55,25 @@ double squared(const Vec3& v) {
     return glm::dot(v, v);
 }
 
+float meanLight(const SolvedRoom& room) {
+    double sum = 0, area = 0;
+    for (std::size_t i = 0; i < room.state.irradiance.size(); ++i) {
+        sum += room.state.unwrap.texelArea(i) * maxComponent(room.state.irradiance[i]);
+        area += room.state.unwrap.texelArea(i);
+    }
+    return static_cast<float>(sum / area);
+}
+
 /// Squares of the error and of the light at a texel of the truth, times its area.
 struct Squares {
     double error = 0, light = 0;
 };
 
-Squares compare(const Shown& s, const SolvedRoom& truth, std::size_t i) {
+Squares compare(const Shown& s, const SolvedRoom& truth, float closedOff, std::size_t i) {
     const Unwrap& u = truth.state.unwrap;
     const Unwrap& shownIn = s.state.unwrap;
     if (maxComponent(truth.state.reflectance[i]) <= 0) return {};
-    if (truth.state.irradiance[i] == Vec3(0)) return {};  // closed off: nobody sees it
+    if (maxComponent(truth.state.irradiance[i]) < closedOff) return {};
     const float lift = 1e-4f * s.state.frame.radius;
     Vec3 shown(0);
     float count = 0, covered = 0;
@@ -89,7 +100,9 @@ Squares compare(const Shown& s, const SolvedRoom& truth, std::size_t i) {
 
 void printRow(const char* name, const Shown& s, const SolvedRoom& truth) {
     std::vector<Squares> squares(truth.state.unwrap.texels.size());
-    parallelFor(squares.size(), 256, [&](std::size_t i) { squares[i] = compare(s, truth, i); });
+    const float closedOff = kClosedOff * meanLight(truth);
+    parallelFor(squares.size(), 256,
+                [&](std::size_t i) { squares[i] = compare(s, truth, closedOff, i); });
     Squares sum;
     for (const Squares& q : squares) sum.error += q.error, sum.light += q.light;
     std::printf("| %s | %zu | %zu | %.2f | %.2f %% | %.2f %% |\n", name,

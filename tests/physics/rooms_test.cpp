@@ -31,6 +31,19 @@ TEST(SealedRoom, IsDarkInTheAtlasToo) {
     EXPECT_LT(worst, 1e-3f * lit);
 }
 
+TEST(SealedRoom, ShowsNoDarkLineAlongTheWallThatDarkIsBehind) {
+    const SolvedScene s(generateScene("sealed"), quickParams(20000));
+    const auto shownAt = [&](const Vec3& onFloor) {
+        const Hit hit = s.state.rays.closest({onFloor + Vec3(0, 0.01f, 0), {0, -1, 0}});
+        const Chart& chart = s.field.charts[s.field.triangleCharts[hit.triangle].front];
+        return luminance(s.field.atlas.sample(chart, chart.texelCoordinates(onFloor)));
+    };
+    for (const float z : {0.5f, 1.3f, 2.1f, 3.2f}) {
+        const float before = shownAt({3.99f - 2 * s.state.unwrap.texelSize, 0, z});
+        EXPECT_NEAR(shownAt({3.985f, 0, z}) / before, 1, 0.15) << "z " << z;
+    }
+}
+
 TEST(EnergyBalance, ClosedRoomsLoseNothing) {
     for (const char* name : {"two-rooms", "mirror-room"}) {
         BakeParams p = quickParams(15000);

@@ -28,6 +28,13 @@ struct Chart {
         return {glm::dot(uAxis, p) + uOffset, glm::dot(vAxis, p) + vOffset};
     }
 
+    /// World point of texel coordinates on the plane through `anchor` perpendicular to the normal.
+    Vec3 pointAt(const Vec2& coordinates, const Vec3& anchor) const {
+        const Vec2 step = coordinates - texelCoordinates(anchor);
+        return anchor + uAxis * (step.x / glm::dot(uAxis, uAxis)) +
+               vAxis * (step.y / glm::dot(vAxis, vAxis));
+    }
+
     /// Longer side of a texel, metres.
     float texelSize() const { return 1 / std::min(glm::length(uAxis), glm::length(vAxis)); }
 };

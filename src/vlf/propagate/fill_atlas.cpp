@@ -1,6 +1,6 @@
 #include "vlf/propagate/fill_atlas.h"
 
-#include "vlf/base/parallel.h"
+#include "vlf/propagate/behind_walls.h"
 
 namespace vlf {
 
@@ -78,6 +78,7 @@ IrradianceAtlas fillAtlas(const BakeState& state) {
         atlas.irradiance[unwrap.texels[i]] = state.irradiance[i];
         known[unwrap.texels[i]] = 1;
     }
+    continueBehindWalls(state, atlas, known);
     // Twice: the first pass gives every chart a border, which the links then read.
     const auto dilateAll = [&] {
         std::vector<std::uint8_t> reached = known;

@@ -4,6 +4,7 @@
 #include "vlf/math/frame.h"
 #include "vlf/math/random.h"
 #include "vlf/math/sampling.h"
+#include "vlf/unwrap/wall_between.h"
 
 #include <algorithm>
 #include <array>
@@ -14,7 +15,6 @@ namespace {
 
 constexpr std::size_t kProbes = 4;  // points tried before all of a texel's are
 constexpr int kDirections = 12;     // that a point under a closed side looks in
-constexpr float kLift = 0.01f;      // height, in texels, at which corners look for each other
 
 class BurialTest {
   public:
@@ -40,22 +40,20 @@ class BurialTest {
     /// surface.
     bool isDivided(std::size_t texel, std::span<const std::uint8_t> keep) const {
         const auto points = unwrap_.points.of(texel);
-        if (!unwrap_.charts[unwrap_.texelChart[texel]].planar || points.size() < 2) return false;
+        const Chart& chart = unwrap_.charts[unwrap_.texelChart[texel]];
+        if (!chart.planar || points.size() < 2) return false;
         const std::size_t last = points.size() - 1;
         const bool full = points.size() == kTexelGrid * kTexelGrid;
         const auto blocked = [&](std::size_t a, std::size_t b) {
-            return keep[a] && keep[b] && !sees(texel, points[a], points[b]);
+            return keep[a] && keep[b] &&
+                   wallBetween(rays_, chart, positionOf(points[a]), positionOf(points[b]));
         };
         return blocked(0, last) || (full && blocked(kTexelGrid - 1, last - (kTexelGrid - 1)));
     }
 
   private:
-    bool sees(std::size_t texel, const SurfacePoint& a, const SurfacePoint& b) const {
-        const Chart& chart = unwrap_.charts[unwrap_.texelChart[texel]];
-        const Vec3 lift = std::max(2 * rays_.epsilon(), kLift * chart.texelSize()) * chart.normal;
-        const Vec3 p = positionAt(scene_, a.triangle, a.barycentric) + lift;
-        const Vec3 q = positionAt(scene_, b.triangle, b.barycentric) + lift;
-        return !rays_.occluded({p, q - p, 0, 1});
+    Vec3 positionOf(const SurfacePoint& p) const {
+        return positionAt(scene_, p.triangle, p.barycentric);
     }
 
     /// A closed side straight above is a hint, one in most directions the proof: down a deep shaft,
@@ -64,7 +62,7 @@ class BurialTest {
         const std::uint32_t chart = unwrap_.texelChart[texel];
         const bool front = unwrap_.triangleCharts[point.triangle].front == chart;
         const Vec3 n = geometricNormal(scene_, point.triangle) * (front ? 1.0f : -1.0f);
-        const Vec3 p = positionAt(scene_, point.triangle, point.barycentric) + rays_.epsilon() * n;
+        const Vec3 p = positionOf(point) + rays_.epsilon() * n;
         if (seesOpen(Ray{p, n})) return true;
         const Frame frame = frameFromNormal(n);
         std::uint32_t closed = 0;

@@ -12,21 +12,13 @@ namespace {
 constexpr float kSameFacing = 0.64f;  // cos 50°, as charts of curved surfaces allow
 constexpr float kReach = 1.5f;        // texels above and below the chart to look for its neighbour
 
-/// World point of texel coordinates on the plane through `anchor` perpendicular to the chart's
-/// normal.
-Vec3 pointOnPlane(const Chart& chart, const Vec2& coordinates, const Vec3& anchor) {
-    const Vec2 step = coordinates - chart.texelCoordinates(anchor);
-    return anchor + chart.uAxis * (step.x / glm::dot(chart.uAxis, chart.uAxis)) +
-           chart.vAxis * (step.y / glm::dot(chart.vAxis, chart.vAxis));
-}
-
 std::optional<SeamLink> findLink(const Scene& scene, const RayScene& rays, const Unwrap& unwrap,
                                  std::uint32_t chartIndex, std::uint32_t texel, const Vec2& centre,
                                  const SurfacePoint& neighbour) {
     const Chart& chart = unwrap.charts[chartIndex];
     const Vec3 anchor = positionAt(scene, neighbour.triangle, neighbour.barycentric);
     const float reach = kReach * chart.texelSize();
-    const Vec3 p = pointOnPlane(chart, centre, anchor);
+    const Vec3 p = chart.pointAt(centre, anchor);
     const Hit hit = rays.closest({p + reach * chart.normal, -chart.normal, 0, 2 * reach});
     if (!hit) return std::nullopt;
     const Vec3 normal = geometricNormal(scene, hit.triangle);
