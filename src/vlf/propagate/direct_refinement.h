@@ -44,14 +44,6 @@ struct DirectEstimate {
     }
 };
 
-/// An estimate by n samples that are spread evenly, of the variance if they were independent. The
-/// edge of a shadow among such samples leaves an error that falls with n^(-3/2).
-inline DirectEstimate evenEstimate(const Vec3& value, float variance, int n) {
-    constexpr float kEven = 6.5f;  // measured
-    const float share = std::min(1.0f, kEven / std::sqrt(static_cast<float>(n)));
-    return {.value = value, .variance = variance, .evenVariance = share * variance};
-}
-
 /// Passes over the texels that follow the first.
 inline constexpr int kRefinementPasses = 2;
 

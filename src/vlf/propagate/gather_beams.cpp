@@ -77,7 +77,7 @@ void LightGatherer::drawPunctualSamples(const LightReceiver& r, const LightImage
         if (cosine <= 0 || glm::dot(p.geometric, beam.toLight) <= 0 ||
             !(maxComponent(beam.irradiance) > 0))
             continue;
-        addSample(p, image, {distant ? -light.direction : light.position, distant},
+        addSample(j, p, image, {distant ? -light.direction : light.position, distant},
                   cosine / receiverLobe(p.shading, p.geometric), beam.irradiance);
     }
 }
@@ -96,7 +96,7 @@ void LightGatherer::drawSkySamples(const LightReceiver& r, const LightImage& ima
         const Vec3 direction = image.imageFromWorld.vector(s.direction);
         const float cosine = glm::dot(p.shading, direction);
         if (cosine <= 0 || glm::dot(p.geometric, direction) <= 0 || !(s.density > 0)) continue;
-        addSample(p, image, {s.direction, true},
+        addSample(j, p, image, {s.direction, true},
                   cosine / receiverLobe(p.shading, p.geometric) / s.density, s.bright);
     }
 }

@@ -4,32 +4,21 @@
 #include "vlf/propagate/texel_buffer.h"
 #include "vlf/unwrap/unwrap.h"
 
-#include <cmath>
 #include <span>
 #include <vector>
 
 namespace vlf {
 
-/// The directions that texels have gathered from.
-struct SweptDirections {
-    double lines = 0;     ///< of all sweeps
-    double spacing = 1;   ///< √(513 / l) of a set of l lines; the mean over all lines
-    bool turned = false;  ///< sets in random rotation, whose directions do not lie in walls' planes
-};
-
-/// SweptDirections::spacing of a set.
-inline double spacingOf(int lines) {
-    return std::sqrt(513.0 / lines);
-}
-
 /// Variance of the irradiance π ΣL / n of unwrap.texels, summed over the channels, (W·m⁻²)², from
-/// the spread of `parts`, independent sets of directions, both smoothed or not. Of texels that have
-/// gathered most by rays of their own, which are in `gathered` alone, from the variance that a
-/// sample has elsewhere.
+/// the differences of `parts`, both smoothed or not: each has every kAccumulators-th line of the
+/// sets of directions, the next part the lines beside these. `turned`: the sets are in random
+/// rotation.
 ///
-/// All directions together are more even than the parts are, the more so the more samples a texel
-/// has of each line, which then vary by the direction alone.
+/// Where light changes slowly with the direction so do the parts from one to the next, and all
+/// together are far more even than any of them: no noise. Noise jumps from part to part. Texels
+/// that have gathered most by rays of their own, which are in `gathered` alone, have the variance
+/// that a sample has elsewhere.
 std::vector<float> indirectVariance(const Unwrap& unwrap, std::span<const TexelBuffer> parts,
-                                    const TexelBuffer& gathered, const SweptDirections& swept);
+                                    const TexelBuffer& gathered, bool turned);
 
 }  // namespace vlf

@@ -23,7 +23,14 @@ constexpr float kLittle = 0.01f;     // share of the likely effect of all lights
 constexpr float kGrazing = 1e-5f;    // cosine: a point in a light's own plane gets nothing from it
 constexpr float kSlack = 0.01f;      // texels
 constexpr float kNearField = 0.25f;  // distance, in sides of a square of a light's area
+constexpr int kFew = 100;            // samples
 constexpr float kCompact = 0.1f;  // radius of a light by its distance: much the same from all of it
+
+/// Variance of n samples that are spread evenly, from the difference of their halves. Those of few
+/// make up for one another, which tells of too much: it is no more than if they were independent.
+float evenVariance(float ofHalves, float independent, int n) {
+    return n < kFew ? std::min(ofHalves, independent) : ofHalves;
+}
 
 struct LightSample {
     Vec3 point, normal;  // world
@@ -202,14 +209,21 @@ DirectEstimate LightGatherer::meanOfSamples(int n) const {
     const auto count = static_cast<float>(n);
     Vec3 sum(0);
     float squares = 0;
+    std::array<float, 2> halves{};
     for (const Sample& s : memory_.samples) {
         const Vec3 contribution = s.geometry * s.throughput * s.radiance;
         sum += contribution;
         squares += luminance(contribution) * luminance(contribution);
+        halves[s.odd] += luminance(contribution);
     }
     const Vec3 mean = sum / count;
-    const float spread = squares / count - luminance(mean) * luminance(mean);
-    return evenEstimate(mean, std::max(0.0f, spread) / count, n);
+    const float spread = std::max(0.0f, squares / count - luminance(mean) * luminance(mean));
+    const auto odd = static_cast<float>(n / 2), even = count - odd;
+    const float step = n > 1 ? halves[0] / even - halves[1] / odd : 0;
+    return {.value = mean,
+            .variance = spread / count,
+            .evenVariance =
+                evenVariance(step * step * even * odd / (count * count), spread / count, n)};
 }
 
 /// The unoccluded part of a plain light is known exactly: only the share of it that is visible
@@ -220,23 +234,34 @@ DirectEstimate LightGatherer::gatherByFormFactor(const LightReceiver& r, const L
     drawSamples(r, image, n, 0, random);
     findVisible();
     Vec3 throughput(0);
-    float geometry = 0, visible = 0;
+    float geometry = 0, squares = 0;
+    std::array<float, 2> halfGeometry{}, halfPassed{};
     for (const Sample& s : memory_.samples) {
+        const float passed = luminance(s.throughput);
         geometry += s.geometry;
+        halfGeometry[s.odd] += s.geometry;
+        halfPassed[s.odd] += s.geometry * passed;
         throughput += s.geometry * s.throughput;
-        visible += maxComponent(s.throughput) > 0 ? s.geometry : 0;
+        squares += s.geometry * passed * passed;
     }
     const auto count = static_cast<float>(n);
     const Vec3 unoccluded = light.radiance * kPi * formFactor(r, light, image);
     if (geometry <= 0) {
         if (counts_ == Counts::blockedByExtra) return {};
         const Vec3 value = 0.5f * unoccluded * image.throughput;
-        return evenEstimate(value, luminance(value) * luminance(value), 1);
+        const float variance = luminance(value) * luminance(value);
+        return {.value = value, .variance = variance, .evenVariance = variance};
     }
     const Vec3 value = unoccluded * (throughput / geometry);
-    const float share = visible / geometry;
-    const float whole = luminance(value) / std::max(share, 0.5f / count);
-    return evenEstimate(value, whole * whole * share * (1 - share) / count, n);
+    const float share = luminance(throughput) / geometry, whole = luminance(unoccluded);
+    const float spread = std::max(0.0f, squares / geometry - share * share);
+    const float step = halfGeometry[0] > 0 && halfGeometry[1] > 0
+                           ? halfPassed[0] / halfGeometry[0] - halfPassed[1] / halfGeometry[1]
+                           : 0;
+    const float halves = step * step * halfGeometry[0] * halfGeometry[1] / (geometry * geometry);
+    return {.value = value,
+            .variance = whole * whole * spread / count,
+            .evenVariance = whole * whole * evenVariance(halves, spread / count, n)};
 }
 
 /// Within this distance of the receiver a light is sampled by directions instead of points,
@@ -286,7 +311,7 @@ void LightGatherer::drawNearSamples(const LightReceiver& r, const Light& light, 
         const Vec3 radiance = emittedRadiance(scene_, scene_.material(hit.triangle),
                                               uvAt(scene_, hit.triangle, hit.barycentric));
         memory_.samples.push_back(
-            {kPi / receiverLobe(p.shading, p.geometric), radiance, passed.colour});
+            {kPi / receiverLobe(p.shading, p.geometric), radiance, passed.colour, j % 2 == 1});
     }
 }
 
@@ -310,18 +335,18 @@ void LightGatherer::drawSamples(const LightReceiver& r, const LightImage& image,
             geometryTerm(p.position, p.shading, p.geometric, image.imageFromWorld.point(s.point),
                          image.imageFromWorld.vector(s.normal)) /
             s.density;
-        if (g > 0) addSample(p, image, {s.point, false}, g, s.radiance);
+        if (g > 0) addSample(j, p, image, {s.point, false}, g, s.radiance);
     }
 }
 
-void LightGatherer::addSample(const Point& p, const LightImage& image, const Target& target,
+void LightGatherer::addSample(int j, const Point& p, const LightImage& image, const Target& target,
                               float geometry, const Vec3& radiance) {
     Vec3 throughput(1);
     if (image.depth == 0)
         memory_.shadowRays.push_back(shadowRay(p.position + rays_.epsilon() * p.geometric, target));
     else
         throughput = followImage(p, image, target);
-    memory_.samples.push_back({geometry, radiance, throughput});
+    memory_.samples.push_back({geometry, radiance, throughput, j % 2 == 1});
 }
 
 /// Traces the shadow rays of memory_.samples (none if they went by mirrors).

@@ -88,6 +88,7 @@ class LightGatherer {
     struct Sample {
         float geometry;
         Vec3 radiance, throughput;  // throughput: of mirrors or panes on the way; 0 if occluded
+        bool odd;                   // in which half of the samples it is
     };
     enum class Counts { seen, blockedByExtra };
     /// What the images are likely to do, which tells how many samples are theirs.
@@ -133,8 +134,9 @@ class LightGatherer {
                              RandomStream& random);
     void drawSkySamples(const LightReceiver& r, const LightImage& image, int n,
                         RandomStream& random);
-    void addSample(const Point& p, const LightImage& image, const Target& target, float geometry,
-                   const Vec3& radiance);
+    /// The j-th.
+    void addSample(int j, const Point& p, const LightImage& image, const Target& target,
+                   float geometry, const Vec3& radiance);
     void findVisible();
     void keepBlockedByExtra();
     bool extraBlocks(const Ray& ray);

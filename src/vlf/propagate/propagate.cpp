@@ -177,9 +177,7 @@ void propagateOnce(BakeState& state, int directions, int cells, int rotation, Pr
     if (rotation < 0) {
         while (!topUp(state, kMinSamples, radiance, progress)) observe(state);
         smoothIndirect(state.unwrap, s.parts, s.gathered);
-        state.indirectVariance =
-            indirectVariance(state.unwrap, s.parts, s.gathered,
-                             {static_cast<double>(directions), spacingOf(directions), false});
+        state.indirectVariance = indirectVariance(state.unwrap, s.parts, s.gathered, false);
     }
     endSweep(state);
 }
@@ -198,9 +196,7 @@ void refineOnce(BakeState& state, int directions, Progress& progress, const Bake
     while (!topUp(state, static_cast<int>(samples), radiance, progress)) observe(state);
     std::array<TexelBuffer, kAccumulators> smoothed = s.parts;  // those are added to later
     smoothIndirect(state.unwrap, smoothed, s.gathered);
-    r.spacing = (before * r.spacing + lines * spacingOf(directions)) / (before + lines);
-    state.indirectVariance =
-        indirectVariance(state.unwrap, smoothed, s.gathered, {before + lines, r.spacing, true});
+    state.indirectVariance = indirectVariance(state.unwrap, smoothed, s.gathered, true);
     endSweep(state);
     r.sweptLines += static_cast<std::uint64_t>(directions);
 }

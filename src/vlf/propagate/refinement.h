@@ -23,7 +23,6 @@ struct Refinement {
     double directTarget = 0;  ///< of that, if it is direct light: Σ A s² over the texels, W²·m⁻²
     std::int32_t steps = 0;   ///< that have ended; the first is a sweep
     std::uint64_t sweptLines = 0, exchanges = 0;  ///< of the sweeps among them
-    double spacing = 1;                           ///< of their directions, see SweptDirections
 };
 
 /// What the steps of this process took, to foretell the next one; only BakeParams::seconds asks.

@@ -55,7 +55,10 @@ struct Lit {
         DirectLight light;
         findDirectLight(scene, rays, unwrap, findLightSources(scene, unwrap), {samples, 1}, light,
                         progress);
-        for (const DirectEstimate& e : light.estimates) irradiance.push_back(e.value);
+        for (const DirectEstimate& e : light.estimates) {
+            irradiance.push_back(e.value);
+            squareError += e.squareError();
+        }
     }
 
     /// Largest error of a texel of triangle 0's front, relative to the mean, against `expected`
@@ -82,6 +85,7 @@ struct Lit {
     RayScene rays;
     Unwrap unwrap;
     std::vector<Vec3> irradiance;
+    double squareError = 0;  ///< estimated, over all texels
 };
 
 constexpr Vec3 kUp{0, 1, 0};
@@ -386,6 +390,26 @@ TEST(DirectLight, OfALightOutsideDoesNotEnterAClosedRoom) {
             outside += lit.irradiance[i].x;
     }
     EXPECT_GT(outside, 0);
+}
+
+TEST(DirectLight, KnowsTheErrorOfPenumbraeOfBodiesAndOfPanes) {
+    for (const float transmission : {0.0f, 0.5f}) {
+        SceneBuilder b;
+        b.quad(Vec3(0), {0, 0, 4}, {4, 0, 0}, b.material("floor", Vec3(0.5f)));
+        const std::uint32_t pane = b.material("pane", Vec3(0));
+        b.scene().materials[pane].transmission = Vec3(transmission);
+        b.scene().materials[pane].thin = true;
+        b.quad({0.7f, 1, 0.9f}, {1.1f, 0, 0.1f}, {0.2f, 0, 1.3f}, pane);
+        addLamp(b, kCeilingLamp);
+        const Lit lit(b.scene(), 0.15f, 4), truth(b.scene(), 0.15f, 256);
+        double square = 0;
+        for (std::size_t i = 0; i < lit.irradiance.size(); ++i) {
+            const Vec3 d = lit.irradiance[i] - truth.irradiance[i];
+            square += glm::dot(d, d);
+        }
+        EXPECT_GT(lit.squareError, 0.3 * square) << "transmission " << transmission;
+        EXPECT_LT(lit.squareError, 3 * square) << "transmission " << transmission;
+    }
 }
 
 TEST(DirectLight, CanBeCancelled) {

@@ -1,50 +1,81 @@
+// The estimated noise of indirect light: jumps between neighbouring directions are noise, slow
+// changes are not.
+
 #include "vlf/propagate/indirect_noise.h"
+
 #include "vlf/math/random.h"
+#include "vlf/propagate/bake_solution.h"
 
 #include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
 
 namespace vlf::test {
 
 namespace {
 
-constexpr std::size_t kTexels = 400, kParts = 8;
-constexpr double kLines = 513;
+constexpr std::size_t kTexels = 4000;
+constexpr float kWeight = 20;  // samples of a texel in a part
 
-/// Of texels with so many samples of each line, every other one with a tenth of them, whose parts
-/// all differ alike: by a tenth of the radiance 1.
-std::vector<float> varianceOf(double samplesPerLine) {
+/// Mean over texels that have gathered radiance 1 + deviation(texel, part).
+double meanVariance(const std::function<float(std::uint32_t, std::size_t)>& deviation,
+                    bool turned = false) {
     Unwrap unwrap;
-    std::vector<TexelBuffer> parts(kParts, TexelBuffer(kTexels));
-    RandomStream random(1, 2);
+    std::vector<TexelBuffer> parts(kAccumulators, TexelBuffer(kTexels));
     for (std::uint32_t t = 0; t < kTexels; ++t) {
         unwrap.texels.push_back(t);
-        const auto weight =
-            static_cast<float>(samplesPerLine * (t % 2 ? 0.1 : 1) * kLines / kParts);
-        for (TexelBuffer& part : parts)
-            part.set(t, Vec3(weight * (random.next() < 0.5f ? 0.9f : 1.1f)), weight);
+        for (std::size_t a = 0; a < kAccumulators; ++a)
+            parts[a].set(t, Vec3(kWeight * (1 + deviation(t, a))), kWeight);
     }
-    return indirectVariance(unwrap, parts, sumInOrder(parts), {kLines, 1, false});
+    double sum = 0;
+    for (const float v : indirectVariance(unwrap, parts, sumInOrder(parts), turned)) sum += v;
+    return sum / kTexels;
 }
 
-/// Of the even or the odd texels.
-double mean(const std::vector<float>& values, std::size_t first) {
-    double sum = 0;
-    for (std::size_t i = first; i < values.size(); i += 2) sum += values[i];
-    return 2 * sum / static_cast<double>(values.size());
+float jump(RandomStream& random) {
+    return random.next() < 0.5f ? -0.1f : 0.1f;
 }
+
+/// Three channels of the mean of so many parts.
+constexpr double kOfJumps = 3 * kPi * kPi * 0.1 * 0.1 / kAccumulators;
 
 }  // namespace
 
-TEST(IndirectNoise, OfTexelsWithFewSamplesOfALineIsTheSpreadOfTheParts) {
-    // Three channels; the variance of a mean of eight.
-    const double ofIndependent = 3 * kPi * kPi * 0.1 * 0.1 / kParts;
-    EXPECT_NEAR(mean(varianceOf(0.2), 1) / ofIndependent, 1, 0.05);
+TEST(IndirectNoise, OfPartsThatJumpIsTheirSpread) {
+    RandomStream random(1, 2);
+    EXPECT_NEAR(meanVariance([&](auto, auto) { return jump(random); }) / kOfJumps, 1, 0.05);
 }
 
-TEST(IndirectNoise, IsTheLessTheMoreSamplesALineHasInATexel) {
-    const std::vector<float> some = varianceOf(0.2), many = varianceOf(2);
-    EXPECT_LT(mean(some, 0), 0.6 * mean(some, 1));
-    EXPECT_LT(mean(many, 0), 0.3 * mean(some, 0));
+TEST(IndirectNoise, OfTurnedSetsIsLess) {
+    RandomStream random(1, 2);
+    const double variance = meanVariance([&](auto, auto) { return jump(random); }, true);
+    EXPECT_GT(variance, 0.3 * kOfJumps);
+    EXPECT_LT(variance, 0.7 * kOfJumps);
+}
+
+TEST(IndirectNoise, IsNotWhatChangesSlowlyFromPartToPart) {
+    const auto slow = [](std::uint32_t t, std::size_t a) {
+        return 0.1f * std::cos(2 * kPi * (static_cast<float>(a) / kAccumulators + 0.37f * t));
+    };
+    EXPECT_LT(meanVariance(slow), 1e-3 * kOfJumps);
+}
+
+TEST(IndirectNoise, OfTexelsWithRaysOfTheirOwnIsThatOfSamplesElsewhere) {
+    Unwrap unwrap;
+    std::vector<TexelBuffer> parts(kAccumulators, TexelBuffer(kTexels));
+    RandomStream random(3, 4);
+    for (std::uint32_t t = 0; t < kTexels; ++t) {
+        unwrap.texels.push_back(t);
+        for (TexelBuffer& part : parts)
+            if (t % 2 == 0) part.set(t, Vec3(kWeight * (1 + jump(random))), kWeight);
+    }
+    TexelBuffer gathered = sumInOrder(parts);
+    const float own = 2 * kWeight;
+    for (std::uint32_t t = 1; t < kTexels; t += 2) gathered.set(t, Vec3(3 * own), own);
+    const std::vector<float> variance = indirectVariance(unwrap, parts, gathered, false);
+    // Of three times the radiance and a quarter of the samples.
+    EXPECT_NEAR(variance[1] / kOfJumps, 9 * 4, 0.1 * 36);
 }
 
 }  // namespace vlf::test

@@ -208,7 +208,7 @@ TEST_F(Resume, FromEveryKindOfPauseTheFieldIsTheSame) {
 TEST_F(Resume, ARefinementGoesOnToTheSameBits) {
     BakeParams refining = refiningParams(params(), 0);
     refining.directions = 129;
-    refining.refinements = 5;
+    refining.refinements = 8;
     whole = bake(scene, refining, none);
     PausingProgress progress(11);
     std::map<std::string, BakeSolution> kept;
