@@ -110,9 +110,11 @@ ErrorEstimate estimateError(const BakeState& state) {
     const TexelNeighbours neighbours(state.unwrap);
     parallelFor(texels, kBlock,
                 [&](std::size_t i) { e.texelSize[i] = kBend * bend(state, neighbours, noise, i); });
-    std::vector<float> sum(texels);
-    for (std::size_t i = 0; i < texels; ++i) sum[i] = noise[i] + e.missing[i] + e.texelSize[i];
-    e.total = smoothed(sum, neighbours);
+    for (std::size_t i = 0; i < texels; ++i) noise[i] += e.missing[i];
+    e.total = smoothed(noise, neighbours);
+    // Noise that neighbours share bends less than it is taken to: that is no less noise.
+    const std::vector<float> texelSize = smoothed(e.texelSize, neighbours);
+    for (std::size_t i = 0; i < texels; ++i) e.total[i] += texelSize[i];
     return e;
 }
 
