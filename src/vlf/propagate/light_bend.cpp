@@ -15,7 +15,7 @@ constexpr double kEvenBend = 0.017, kEdgeBend = 0.09;
 // Powers of the texels' size with which it falls in either case.
 constexpr double kEvenPower = 4, kEdgePower = 1;
 
-constexpr float kSureNoise = 1.5f;  // of the noise there is, that light has to exceed
+constexpr float kOwnNoise = 0.75f;  // of a texel's noise; the rest neighbours share: it does not bend
 
 float squared(const Vec3& v) {
     return glm::dot(v, v);
@@ -76,7 +76,7 @@ class LightGrid {
             const float own = static_cast<float>((&a != &t) + (&b != &t));
             const float noise =
                 (&a != &t ? a.noise : 0) + (&b != &t ? b.noise : 0) + own * own * t.noise;
-            sum += squared(a.light + b.light - 2.0f * t.light) - kSureNoise * noise;
+            sum += squared(a.light + b.light - 2.0f * t.light) - kOwnNoise * noise;
         }
         return sum;
     }
