@@ -7,7 +7,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <initializer_list>
 
 namespace vlf {
 
@@ -30,13 +29,24 @@ struct PartSpread {
 
 using Deviations = std::array<Vec3, kAccumulators>;
 
-/// Squared magnitude of the k-th coefficient of their Fourier transform.
-float power(const Deviations& deviations, int k) {
+/// Cosine and sine of the k-th wave of a discrete Fourier transform over the parts.
+using Wave = std::array<Vec2, kAccumulators>;
+
+Wave waveOf(int k) {
+    Wave wave;
+    for (std::size_t a = 0; a < wave.size(); ++a) {
+        const float angle = 2 * kPi * static_cast<float>(k * a) / static_cast<float>(wave.size());
+        wave[a] = {std::cos(angle), std::sin(angle)};
+    }
+    return wave;
+}
+
+/// Squared magnitude of the wave's coefficient.
+float power(const Deviations& deviations, const Wave& wave) {
     Vec3 re(0), im(0);
-    for (std::size_t a = 0; a < deviations.size(); ++a) {
-        const float angle = 2 * kPi * static_cast<float>(k * a) / deviations.size();
-        re += std::cos(angle) * deviations[a];
-        im += std::sin(angle) * deviations[a];
+    for (std::size_t a = 0; a < wave.size(); ++a) {
+        re += wave[a].x * deviations[a];
+        im += wave[a].y * deviations[a];
     }
     return glm::dot(re, re) + glm::dot(im, im);
 }
@@ -64,8 +74,10 @@ PartSpread spreadOf(std::span<const TexelBuffer> parts, const TexelBuffer& gathe
         deviations[a] = (parts[a].rgb(texel) - parts[a].weight(texel) * mean) / weight;
         squares += glm::dot(deviations[a], deviations[a]);
     }
+    static const Wave third = waveOf(3), fourth = waveOf(4);  // the fifth has the third's power
     const auto n = static_cast<float>(count);
-    return {squares * n / (n - 1), (2 * power(deviations, 3) + power(deviations, 4)) / 3, true};
+    return {squares * n / (n - 1), (2 * power(deviations, third) + power(deviations, fourth)) / 3,
+            true};
 }
 
 }  // namespace
