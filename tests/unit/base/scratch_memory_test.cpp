@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -38,7 +39,10 @@ class ScratchMemory : public testing::Test {
         n.get_allocator().release(n.capacity(), n.data(), n.size());
     }
 
-    const fs::path folder_ = fs::path(testing::TempDir()) / "scratch-memory";
+    const fs::path folder_ =
+        fs::path(testing::TempDir()) /
+        (std::string("scratch-memory-") +
+         testing::UnitTest::GetInstance()->current_test_info()->name());  // others run beside it
 };
 
 TEST_F(ScratchMemory, OfAFileIsGivenBackAndKeepsItsContent) {
