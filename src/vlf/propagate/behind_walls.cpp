@@ -99,6 +99,7 @@ void continueBehindWalls(const BakeState& state, IrradianceAtlas& atlas,
     const auto divided = lightOfAll(u.divided.size(),
                                     [&](std::size_t i) { return sides.lightAround(u.divided[i]); });
     for (std::size_t i = 0; i < divided.size(); ++i) give(u.divided[i].texel, divided[i]);
+    // Light may lie in the next texel but one, beyond one that the wall divides.
     const auto dark = lightOfAll(u.texels.size(), [&](std::size_t i) -> std::pair<Vec3, float> {
         if (!known[u.texels[i]] || !u.charts[u.texelChart[i]].planar) return {};
         const SurfacePoint& p = u.points.of(i)[0];

@@ -16,8 +16,7 @@ constexpr std::size_t kBlock = 1024;
 constexpr int kMinParts = 4;       // that a variance is reckoned from
 constexpr float kOwnShare = 0.1f;  // of all samples; of fewer rays of its own the parts tell
 
-// Of turned sets: none of their directions lies in the planes of walls, which make more noise than
-// others. Measured in ten rooms.
+// What turned sets have of it: measured, 0.3 to 0.7 in six rooms.
 constexpr float kTurned = 0.5f;
 
 /// What the parts of a texel tell of the variance of its mean radiance.

@@ -154,6 +154,16 @@ TEST(ErrorEstimate, OfInterpolationIsNearWhatFinerTexelsTell) {
     expectNear(s.estimate().interpolated(), std::sqrt(error / light));
 }
 
+TEST(ErrorEstimate, OfALitTexelIsNeverNone) {
+    // Where light is even, second differences less noise are below zero as often as above.
+    const Solved s(generateScene("cornell"), cheap(6000));
+    const ErrorEstimate e = estimateError(s.state);
+    for (std::size_t i = 0; i < e.total.size(); ++i) {
+        if (maxComponent(s.state.irradiance[i]) <= 0) continue;
+        ASSERT_GT(e.total[i], 0) << "texel " << i;
+    }
+}
+
 TEST(ErrorEstimate, OfIndirectLightFallsWithTheSweepsAsTheTrueOneDoes) {
     const Scene scene = generateScene("cornell");
     const Solved truth(scene, exact(cheap(3000)));
